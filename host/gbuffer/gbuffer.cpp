@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "host/gbuffer/gbuffer.h"
+
+#include <algorithm>
+
+#include "runtime/error.h"
+#include "runtime/profiler.h"
+
+namespace penumbra::gbuffer {
+namespace {
+
+int paddedPixels(int width, int height) {
+    return (width * height + GB_PAD - 1) / GB_PAD * GB_PAD;
+}
+
+shared::float4 narrow(const glm::dvec3& v, double w) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
+            static_cast<float>(w)};
+}
+
+shared::GBufferParams paramsFor(const scene::CameraFrame& camera, const glm::dvec3& centre) {
+    shared::GBufferParams params{};
+    const glm::dvec3 eye = glm::dvec3(camera.worldFromCamera[3]) - centre;
+    const glm::dvec3 backwards(camera.worldFromCamera[2]);
+    params.eye = camera.orthographic ? narrow(backwards, 0) : narrow(eye, 1);
+    const glm::dvec4 row = scene::depthRow(camera, centre);
+    params.rowDepth = narrow(glm::dvec3(row), row.w);
+    return params;
+}
+
+}  // namespace
+
+GBufferPass::GBufferPass(const runtime::Program& frame, int width, int height, bool allowAtomics64)
+    : device_(&frame.device()),
+      tiles_(frame.device()),
+      depth_(frame, "gbuffer_depth"),
+      id_(frame, "gbuffer_id"),
+      resolve_(frame, "gbuffer_resolve") {
+    requireUsage(width > 0 && height > 0 && width <= RASTER_MAX_SIZE && height <= RASTER_MAX_SIZE,
+                 "--size {}x{} is outside of 1x1 to {}x{} pixels", width, height, RASTER_MAX_SIZE,
+                 RASTER_MAX_SIZE);
+    auto& device = *device_;
+    if (allowAtomics64 && device.info().atomics64) {
+        const runtime::Program atomic64(device, "atomic64");
+        wide_ = std::make_unique<Kernels<Buffer<std::uint32_t>>>(atomic64, "gbuffer_raster64");
+    }
+    const auto pixels = static_cast<std::uint64_t>(paddedPixels(width, height));
+    depthBits_ = Buffer<std::uint32_t>(device, "depth bits", wide_ ? 1 : pixels);
+    visibility_ = Buffer<std::uint32_t>(device, "visibility buffer", wide_ ? 2 * pixels : pixels);
+    gbuffer_.width = width;
+    gbuffer_.height = height;
+    gbuffer_.planeStride = static_cast<int>(pixels);
+    gbuffer_.planes = Buffer<float>(device, "G-buffer", runtime::Shape{1, GB_PLANES, pixels});
+}
+
+std::uint64_t GBufferPass::plannedBytes(int width, int height) {
+    return static_cast<std::uint64_t>(paddedPixels(width, height)) * (GB_PLANES + 2) * sizeof(float);
+}
+
+void GBufferPass::rasterise(const shared::RasterView& view, const Mesh& mesh) {
+    tiles_.clear();
+    visibility_.fill(0);
+    if (wide_) {
+        wide_->launch(view, mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels, visibility_);
+        return;
+    }
+    depthBits_.fill(0);
+    depth_.launch(view, mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels, depthBits_);
+    tiles_.clear();
+    id_.launch(view, mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels, depthBits_,
+               visibility_);
+}
+
+const GBuffer& GBufferPass::run(const Mesh& mesh, const scene::CameraFrame& camera,
+                                const glm::dvec3& centre) {
+    device_->profiler().beginStage("gbuffer");
+    auto view = scene::rasterView(camera, centre, gbuffer_.width, gbuffer_.height);
+    view.requireFlags = DRAW_ANY;
+    view.cullBack = DRAW_SINGLE_SIDED;
+    view.triangleCount = static_cast<int>(mesh.triangleCount);
+    rasterise(view, mesh);
+    auto params = paramsFor(camera, centre);
+    params.width = gbuffer_.width;
+    params.height = gbuffer_.height;
+    params.planeStride = gbuffer_.planeStride;
+    params.idStride = wide_ ? 2 : 1;
+    params.hasPrevious = mesh.moved ? 1 : 0;
+    resolve_.launch({static_cast<std::uint64_t>(gbuffer_.planeStride)}, {64}, params, view, mesh.positions,
+                    mesh.normals, mesh.tangents, mesh.previousPositions, mesh.indices,
+                    mesh.triangleDraw, mesh.draws, mesh.materials, mesh.uvs, mesh.colours, mesh.texels,
+                    visibility_, gbuffer_.planes);
+    return gbuffer_;
+}
+
+}  // namespace penumbra::gbuffer

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <half.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "host/image/image_file.h"
+#include "runtime/error.h"
+
+namespace penumbra::image {
+namespace {
+
+/// Planes on their way into a file; a deque-like owner of converted samples.
+struct Planes {
+    std::vector<std::vector<half>> halves;
+    Imf::FrameBuffer buffer;
+};
+
+template <typename T>
+Imf::Slice sliceOf(Imf::PixelType type, const T* values, int width) {
+    // OpenEXR's interface takes no const; it only reads when writing a file
+    auto* base = reinterpret_cast<char*>(const_cast<T*>(values));
+    return {type, base, sizeof(T), sizeof(T) * static_cast<std::size_t>(width)};
+}
+
+void addHeader(const Frame& frame, Imf::Header& header) {
+    for (const auto& [key, value] : frame.header)
+        header.insert("penumbra." + key, Imf::StringAttribute(value));
+    header.insert("penumbra.fingerprint", Imf::StringAttribute(frame.fingerprint));
+    header.compression() = Imf::ZIP_COMPRESSION;
+}
+
+void addColour(const Frame& frame, Imf::Header& header, Planes& planes) {
+    const char* names[] = {"R", "G", "B", "A"};
+    const auto pixels = frame.rgba.size() / 4;
+    for (std::size_t c = 0; c < 4; ++c) {
+        auto& plane = planes.halves.emplace_back(pixels);
+        for (std::size_t i = 0; i < pixels; ++i) plane[i] = half(std::min(frame.rgba[4 * i + c], 65504.0F));
+        header.channels().insert(names[c], Imf::Channel(Imf::HALF));
+        planes.buffer.insert(names[c], sliceOf(Imf::HALF, plane.data(), frame.width));
+    }
+}
+
+void addChannels(const std::vector<Channel>& channels, int width, Imf::Header& header, Planes& planes) {
+    for (const auto& channel : channels) {
+        const bool uints = !channel.ids.empty();
+        header.channels().insert(channel.name, Imf::Channel(uints ? Imf::UINT : Imf::FLOAT));
+        planes.buffer.insert(channel.name, uints ? sliceOf(Imf::UINT, channel.ids.data(), width)
+                                                 : sliceOf(Imf::FLOAT, channel.values.data(), width));
+    }
+}
+
+void writeFile(const std::string& path, const Imf::Header& header, const Planes& planes, int height) {
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(planes.buffer);
+    file.writePixels(height);
+}
+
+void writeFrame(const std::string& path, const void* context) {
+    const auto& frame = *static_cast<const Frame*>(context);
+    Imf::Header header(frame.width, frame.height);
+    addHeader(frame, header);
+    Planes planes;
+    planes.halves.reserve(4);
+    addColour(frame, header, planes);
+    addChannels(frame.channels, frame.width, header, planes);
+    writeFile(path, header, planes, frame.height);
+}
+
+void writeDepthMaps(const std::string& path, const void* context) {
+    const auto& frame = *static_cast<const Frame*>(context);
+    Imf::Header header(frame.depthMapSize, frame.depthMapSize);
+    addHeader(frame, header);
+    Planes planes;
+    addChannels(frame.depthMaps, frame.depthMapSize, header, planes);
+    writeFile(path, header, planes, frame.depthMapSize);
+}
+
+}  // namespace
+
+void writeExrFile(const std::string& path, const Frame& frame) {
+    writeWhole(path, &frame, writeFrame);
+    if (frame.depthMaps.empty()) return;
+    const std::filesystem::path file(path);
+    const auto maps = file.parent_path() / (file.stem().string() + ".depth-maps.exr");
+    writeWhole(maps.string(), &frame, writeDepthMaps);
+}
+
+LoadedImage readExrFile(const std::string& path) try {
+    Imf::InputFile file(path.c_str());
+    const auto& header = file.header();
+    const auto window = header.dataWindow();
+    LoadedImage image;
+    image.width = window.max.x - window.min.x + 1;
+    image.height = window.max.y - window.min.y + 1;
+    require(image.width > 0 && image.height > 0 && image.width <= 32768 && image.height <= 32768,
+            "{} x {} pixels are outside of 1x1 to 32768x32768", image.width, image.height);
+    const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+        image.channels.push_back({c.name(), std::vector<float>(pixels), {}});
+    Imf::FrameBuffer buffer;
+    for (auto& channel : image.channels) {
+        char* base = reinterpret_cast<char*>(channel.values.data()) -
+                     sizeof(float) * (static_cast<std::ptrdiff_t>(window.min.x) +
+                                      static_cast<std::ptrdiff_t>(window.min.y) * image.width);
+        buffer.insert(channel.name, Imf::Slice(Imf::FLOAT, base, sizeof(float),
+                                               sizeof(float) * static_cast<std::size_t>(image.width)));
+    }
+    file.setFrameBuffer(buffer);
+    file.readPixels(window.min.y, window.max.y);
+    for (auto a = header.begin(); a != header.end(); ++a)
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
+            image.header.emplace_back(a.name(), text->value());
+    return image;
+} catch (const std::exception& error) {
+    throw Error(fmt::format("{}: not a readable EXR file: {}", path, error.what()));
+}
+
+}  // namespace penumbra::image

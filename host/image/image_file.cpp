@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "host/image/image_file.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "runtime/error.h"
+
+namespace penumbra::image {
+
+std::string extensionOf(const std::string& path) {
+    auto extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+const std::vector<float>* LoadedImage::find(const std::string& name) const {
+    for (const auto& channel : channels)
+        if (channel.name == name) return &channel.values;
+    return nullptr;
+}
+
+LoadedImage readImage(const std::string& path) {
+    require(std::filesystem::is_regular_file(path), "{}: no such file", path);
+    const auto extension = extensionOf(path);
+    if (extension == ".exr") return readExrFile(path);
+    if (extension == ".png") return readPngFile(path);
+    throw Error(fmt::format("{}: '{}' is not an image that can be read; allowed: .exr, .png", path, extension));
+}
+
+void writeWhole(const std::string& path, const void* context,
+                void (*write)(const std::string& temporary, const void* context)) {
+    const std::string temporary = fmt::format("{}.{}.tmp", path, getpid());
+    try {
+        write(temporary, context);
+        std::filesystem::rename(temporary, path);
+    } catch (const std::exception& error) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw Error(fmt::format("{}: cannot be written: {}", path, error.what()));
+    }
+}
+
+}  // namespace penumbra::image
+
+namespace penumbra {
+
+void writeExr(const std::string& path, const Frame& frame) {
+    image::writeExrFile(path, frame);
+}
+
+void writePng(const std::string& path, const Frame& frame) {
+    image::writeWhole(path, &frame, [](const std::string& temporary, const void* context) {
+        image::writePngFile(temporary, *static_cast<const Frame*>(context));
+    });
+}
+
+std::string readFingerprint(const std::string& path) try {
+    for (const auto& [key, value] : image::readImage(path).header)
+        if (key == "penumbra.fingerprint") return value;
+    return "";
+} catch (const std::exception&) {
+    return "";  // absent or damaged: rendered anew
+}
+
+}  // namespace penumbra

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// EXR and PNG files. OpenEXR and libpng end here.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host/penumbra.h"
+
+namespace penumbra::image {
+
+/// An image read back: named planes of width * height floats (uint channels converted).
+struct LoadedImage {
+    int width = 0, height = 0;
+    std::vector<Channel> channels;
+    std::vector<std::pair<std::string, std::string>> header;
+    const std::vector<float>* find(const std::string& name) const;
+};
+
+/// Reads .exr (all channels) or .png (R G B A as stored, 0 to 1). Throws Error naming the file.
+LoadedImage readImage(const std::string& path);
+
+/// Calls write(temporary path) and renames the result to `path`, so that no partial file bears its name.
+/// Throws Error naming path and reason; removes the temporary file.
+void writeWhole(const std::string& path, const void* context,
+                void (*write)(const std::string& temporary, const void* context));
+
+void writeExrFile(const std::string& path, const Frame& frame);
+void writePngFile(const std::string& path, const Frame& frame);
+LoadedImage readExrFile(const std::string& path);
+LoadedImage readPngFile(const std::string& path);
+
+}  // namespace penumbra::image

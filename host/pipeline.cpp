@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: MIT
+#include "host/pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/image/frame_planes.h"
+#include "host/scene/builtin.h"
+#include "host/scene/digest.h"
+#include "host/scene/gltf_loader.h"
+#include "runtime/digest.h"
+#include "runtime/error.h"
+#include "runtime/memory_plan.h"
+#include "runtime/self_test.h"
+#include "runtime/slow_notice.h"
+
+namespace penumbra {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kAmbient = 0.05, kWhite = 0.8;
+constexpr int kMaxRetries = 6;
+
+std::unique_ptr<runtime::Device> openDevice(const RenderOptions& options) {
+    const auto devices = runtime::listDevices();
+    const auto choice = runtime::chooseDevice(devices, options.device);
+    runtime::DeviceOptions deviceOptions;
+    deviceOptions.profiling = options.profile;
+    deviceOptions.cache = options.cache;
+    deviceOptions.memoryLimitBytes = options.memoryMegabytes * 1024 * 1024;
+    return std::make_unique<runtime::Device>(devices[choice.index], deviceOptions);
+}
+
+glm::dvec3 vectorOf(const std::vector<double>& v, const char* option) {
+    requireUsage(v.size() == 3, "{} needs three numbers x,y,z, got {}", option, v.size());
+    return {v[0], v[1], v[2]};
+}
+
+scene::CameraChoice cameraChoice(const RenderOptions& options) {
+    scene::CameraChoice choice;
+    choice.name = options.camera;
+    if (options.eye) choice.eye = vectorOf(*options.eye, "--eye");
+    if (options.target) choice.target = vectorOf(*options.target, "--target");
+    choice.fovDegrees = options.fovDegrees;
+    return choice;
+}
+
+scene::SampleChoice sampleChoice(const RenderOptions& options, int frame) {
+    scene::SampleChoice choice;
+    choice.pattern = scene::parsePattern(options.lightPattern);
+    choice = scene::parseSampleCount(options.lightSamples, choice);
+    if (options.seed == "frame") {
+        choice.seed = static_cast<std::uint32_t>(frame);
+        return choice;
+    }
+    try {
+        choice.seed = static_cast<std::uint32_t>(std::stoul(options.seed));
+    } catch (const std::exception&) {
+        throw Error(fmt::format("--seed '{}' is neither a number nor 'frame'", options.seed), ExitCode::usage);
+    }
+    return choice;
+}
+
+std::size_t drawnTriangles(const scene::Scene& scene) {
+    std::size_t count = 0;
+    for (const int node : scene.order) {
+        const int mesh = scene.nodes[static_cast<std::size_t>(node)].mesh;
+        if (mesh < 0) continue;
+        for (const auto& p : scene.meshes[static_cast<std::size_t>(mesh)].primitives)
+            count += p.indices.size() / 3;
+    }
+    return count;
+}
+
+double exposureOf(const RenderOptions& options, const glm::dvec3& irradiance) {
+    if (options.exposure == "auto") {
+        const double white = (irradiance.x + irradiance.y + irradiance.z) / 3 / kPi * (1 + kAmbient);
+        return white > 0 ? kWhite / white : 1;
+    }
+    try {
+        std::size_t used = 0;
+        const double ev = std::stod(options.exposure, &used);
+        if (used == options.exposure.size()) return std::exp2(ev);
+    } catch (const std::exception&) {
+    }
+    throw Error(fmt::format("--exposure '{}' is neither a number of stops nor 'auto'", options.exposure),
+                ExitCode::usage);
+}
+
+}  // namespace
+
+AovChoice parseAovs(const std::vector<std::string>& names) {
+    AovChoice aovs;
+    const std::pair<const char*, bool AovChoice::*> all[] = {
+        {"visibility", &AovChoice::visibility}, {"depth", &AovChoice::depth},
+        {"normal", &AovChoice::normal},         {"position", &AovChoice::position},
+        {"albedo", &AovChoice::albedo},         {"id", &AovChoice::id},
+        {"depth-maps", &AovChoice::depthMaps}};
+    for (const auto& name : names) {
+        bool known = name == "all";
+        for (const auto& [key, member] : all)
+            // "all" leaves out depth maps, which are gigabytes
+            if (name == key || (name == "all" && member != &AovChoice::depthMaps)) aovs.*member = known = true;
+        requireUsage(known,
+                     "--aov '{}' is unknown; allowed: all, visibility, depth, normal, position, albedo, id, "
+                     "depth-maps",
+                     name);
+    }
+    return aovs;
+}
+
+scene::Scene loadScene(const RenderOptions& options) {
+    auto scene = options.scene.empty() ? scene::loadBuiltinScene() : scene::loadGltf(options.scene);
+    if (!options.lights.empty()) {
+        scene.lights.clear();
+        for (const auto& text : options.lights) scene.lights.push_back(scene::parseLight(text));
+    } else if (scene.lights.empty()) {
+        scene.warnings.push_back("the scene has no light that can be used: a square light is placed above it; "
+                                 "choose your own with --light");
+    }
+    return scene;
+}
+
+Pipeline::Pipeline(const RenderOptions& options) : Pipeline(options, loadScene(options)) {}
+
+Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
+    : options_(options), aovs_(parseAovs(options.aovs)), scene_(std::move(scene)) {
+    requireUsage(options.supersample >= 1 && options.supersample <= 8, "--supersample {} is outside of 1 to 8",
+                 options.supersample);
+    requireUsage(options.fps > 0, "--fps {} must be greater than 0", options.fps);
+    requireUsage(options.temporal >= 0 && options.temporal <= 64, "--temporal {} is outside of 0 to 64",
+                 options.temporal);
+    requireUsage(options.width > 0 && options.height > 0 && options.width <= RASTER_MAX_SIZE &&
+                     options.height <= RASTER_MAX_SIZE,
+                 "--size {}x{} is outside of 1x1 to {}x{} pixels", options.width, options.height,
+                 RASTER_MAX_SIZE, RASTER_MAX_SIZE);
+    visibility::findTechnique(options.technique);
+    sampleChoice(options, 0);
+    width_ = options.width * options.supersample;
+    height_ = options.height * options.supersample;
+    clips_ = scene::chooseAnimations(scene_, options.animation);
+    bounds_ = scene::clipBounds(scene_, clips_);
+    if (options.ground) scene::addGround(scene_, bounds_);
+    require(drawnTriangles(scene_) > 0, "{}: no triangles to draw; add --ground for an empty floor",
+            options.scene.empty() ? "built-in scene" : options.scene);
+    for (const auto& warning : scene_.warnings) warnOnce(warning);
+
+    const auto pose = scene::poseAt(scene_, clips_, 0);
+    glm::dvec3 irradiance(0);
+    for (const auto& light : scene::lightsAt(scene_, pose, bounds_, sampleChoice(options_, 0)))
+        irradiance += scene::facingIrradiance(light, bounds_.centre());
+    exposure_ = exposureOf(options_, irradiance);
+    ambient_ = kAmbient * irradiance / kPi;
+
+    device_ = openDevice(options_);
+    planMemory();
+    makePasses();
+    std::string key = scene::sceneDigest(scene_);
+    for (const auto& [name, value] : header()) key += name + "=" + value + "\n";
+    fingerprint_ = runtime::digest(key);
+}
+
+Pipeline::~Pipeline() = default;
+
+void Pipeline::planMemory() const {
+    runtime::MemoryPlan plan(*device_);
+    const auto pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+    plan.add("G-buffer", pixels * GB_PLANES * sizeof(float));
+    plan.add("visibility buffer", pixels * 8);
+    plan.add("colour and visibility", pixels * 5 * sizeof(float));
+    plan.add("receivers", pixels * 7 * sizeof(float));
+    if (options_.temporal > 1)
+        plan.add("visibility history", 2ULL * static_cast<std::uint64_t>(options_.temporal) * pixels * sizeof(float));
+    plan.add("geometry", drawnTriangles(scene_) * 3 * 64);
+    plan.check();
+}
+
+void Pipeline::makePasses() {
+    program_ = std::make_unique<runtime::Program>(*device_, "frame");
+    runtime::selfTest(*program_);
+    geometry_ = std::make_unique<geometry::Geometry>(*program_, scene_, bounds_.centre());
+    gbuffer_ = std::make_unique<gbuffer::GBufferPass>(*program_, width_, height_);
+    technique_ = visibility::findTechnique(options_.technique)
+                     .make({*device_, options_.settings, width_, height_});
+    shade_ = std::make_unique<shading::Shade>(*program_, width_, height_);
+    temporal_ = std::make_unique<shading::Temporal>(*program_, width_, height_, options_.temporal);
+    const auto pixels = static_cast<std::uint64_t>((width_ * height_ + GB_PAD - 1) / GB_PAD * GB_PAD);
+    visibility_.planes = runtime::Buffer<float>(*device_, "visibility", runtime::Shape{1, 1, pixels});
+    visibility_.state = runtime::Buffer<std::uint32_t>(*device_, "pixel states", pixels);
+}
+
+double Pipeline::secondsOf(int number) const {
+    return std::clamp(number / options_.fps, 0.0, scene::clipDurationSeconds(scene_, clips_));
+}
+
+int Pipeline::frameCount() const {
+    return static_cast<int>(std::floor(scene::clipDurationSeconds(scene_, clips_) * options_.fps + 1e-6)) + 1;
+}
+
+void Pipeline::enqueue(const geometry::Mesh& mesh, bool keep) {
+    const gbuffer::GBuffer& gbuffer = gbuffer_->run(mesh, camera_, bounds_.centre());
+    shade_->begin(gbuffer, ambient_);
+    technique_->prepare(mesh);
+    keptVisibility_.clear();
+    keptMaps_.clear();
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        visibility::DepthMaps maps;
+        technique_->run({mesh, gbuffer, lights_[i], bounds_, bounds_.centre(),
+                         keep && aovs_.depthMaps ? &maps : nullptr},
+                        visibility_);
+        temporal_->run(gbuffer, i, visibility_);
+        shade_->add(gbuffer, lights_[i], visibility_, camera_, bounds_.centre());
+        if (keep && aovs_.visibility) keptVisibility_.push_back(visibility_.planes.download());
+        if (keep && aovs_.depthMaps) keptMaps_.push_back(std::move(maps));
+    }
+}
+
+bool Pipeline::anyListGrew() {
+    const bool camera = gbuffer_->grew();
+    return technique_->grew() || camera;
+}
+
+int Pipeline::renderOnDevice(int number, bool keep) {
+    const scene::Pose pose = scene::poseAt(scene_, clips_, secondsOf(number));
+    camera_ = scene::cameraAt(scene_, pose, cameraChoice(options_), bounds_,
+                              static_cast<double>(options_.width) / options_.height);
+    lights_ = scene::lightsAt(scene_, pose, bounds_, sampleChoice(options_, number));
+    const geometry::Mesh& mesh = geometry_->run(pose);
+    int retries = 0;
+    for (;; ++retries) {
+        enqueue(mesh, keep);
+        if (!anyListGrew()) break;
+        require(retries < kMaxRetries, "frame {}: device lists still overflow after {} attempts", number,
+                retries);
+        temporal_->undo();
+        technique_->takeCounts();
+    }
+    temporal_->endFrame(gbuffer_->result(), camera_, bounds_.centre());
+    lastFrame_ = number;
+    return retries;
+}
+
+Frame Pipeline::render(int number) {
+    const int window = options_.temporal;
+    if (window > 1 && (!lastFrame_ || *lastFrame_ != number - 1)) {
+        temporal_->reset();
+        for (int f = number - window + 1; f < number; ++f) {
+            renderOnDevice(f, false);
+            technique_->takeCounts();
+        }
+        device_->profiler().collect();
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const runtime::SlowNotice notice("preparing kernels for their first use on this device");
+    const int retries = renderOnDevice(number, true);
+    for (const auto& warning : technique_->warnings()) warnOnce(warning);
+    const auto stages = device_->profiler().collect();
+    Frame frame = collect(number);
+    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+    frame.statsJson = frameStats(stages, number, wall.count(), retries);
+    return frame;
+}
+
+Frame Pipeline::collect(int number) {
+    image::FramePlanes planes;
+    planes.width = options_.width;
+    planes.height = options_.height;
+    planes.supersample = options_.supersample;
+    planes.stride = gbuffer_->result().planeStride;
+    planes.colour = shade_->colour().download();
+    const bool surfaces = aovs_.depth || aovs_.normal || aovs_.position || aovs_.albedo || aovs_.id;
+    const auto stride = static_cast<std::uint64_t>(planes.stride);
+    const auto& source = gbuffer_->result().planes;
+    if (surfaces)
+        planes.gbuffer = source.download();
+    else
+        planes.objects = source.download(GB_OBJECT * stride, stride);
+    Frame frame = image::assembleFrame(planes, aovs_, bounds_.centre());
+    for (std::size_t i = 0; i < keptVisibility_.size(); ++i)
+        image::addVisibility(planes, lights_[i].name, keptVisibility_[i], frame);
+    for (std::size_t i = 0; i < keptMaps_.size(); ++i) image::addDepthMaps(lights_[i].name, keptMaps_[i], frame);
+    frame.number = number;
+    frame.exposure = exposure_;
+    frame.header = header();
+    frame.fingerprint = fingerprint_;
+    return frame;
+}
+
+std::vector<std::pair<std::string, std::string>> Pipeline::header() const {
+    std::vector<std::pair<std::string, std::string>> entries;
+    const auto add = [&](const std::string& key, const std::string& value) { entries.emplace_back(key, value); };
+    add("version", version());
+    add("technique", options_.technique);
+    for (const auto& row : technique_->settings()) add(options_.technique + "." + row.name, row.fallback);
+    add("lightSamples", options_.lightSamples);
+    add("lightPattern", options_.lightPattern);
+    add("seed", options_.seed);
+    add("size", fmt::format("{}x{}", options_.width, options_.height));
+    add("supersample", fmt::format("{}", options_.supersample));
+    add("fps", fmt::format("{}", options_.fps));
+    add("animation", options_.animation);
+    add("camera", options_.camera);
+    if (options_.eye) add("eye", fmt::format("{}", fmt::join(*options_.eye, ",")));
+    if (options_.target) add("target", fmt::format("{}", fmt::join(*options_.target, ",")));
+    if (options_.fovDegrees) add("fov", fmt::format("{}", *options_.fovDegrees));
+    add("temporal", fmt::format("{}", options_.temporal));
+    add("exposure", options_.exposure);
+    add("aovs", fmt::format("{}", fmt::join(options_.aovs, ",")));
+    add("device", device_->info().name);
+    add("driver", device_->info().platform + " " + device_->info().driver);
+    return entries;
+}
+
+std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, int number, double wallMs,
+                                 int retries) {
+    const auto counts = technique_->takeCounts();
+    nlohmann::json json = {{"frame", number},
+                           {"wallMs", wallMs},
+                           {"triangles", geometry_->mesh().triangleCount},
+                           {"points", counts.points},
+                           {"nearPoints", counts.nearPoints},
+                           {"outsideFov", counts.outsideFov},
+                           {"bytes", device_->memory().current},
+                           {"retries", retries},
+                           {"dropped", geometry_->counts().nonFiniteVertices}};
+    for (const auto& s : stages)
+        json["stages"].push_back({{"name", s.name},
+                                  {"deviceMs", s.deviceMs},
+                                  {"wallMs", s.wallMs},
+                                  {"launches", s.launches},
+                                  {"maxLaunchMs", s.maxLaunchMs}});
+    if (const auto dropped = geometry_->counts().nonFiniteVertices)
+        warnOnce(fmt::format("{} vertices are not finite: their triangles are dropped", dropped));
+    if (counts.nearPoints)
+        warnOnce(fmt::format("casters lie nearer to a light than its near plane: {} points keep depth 1; set "
+                             "near= on --light",
+                             counts.nearPoints));
+    return json.dump();
+}
+
+std::string Pipeline::statsJson() const {
+    nlohmann::json settings;
+    for (const auto& [key, value] : header()) settings[key] = value;
+    const auto& programs = device_->programs();
+    return nlohmann::json({{"schema", 1},
+                           {"device", device_->info().name},
+                           {"settings", settings},
+                           {"programs", {{"built", programs.built}, {"loaded", programs.loaded}, {"ms", programs.ms}}},
+                           {"memory", {{"peak", device_->memory().peak}, {"planned", device_->memory().peak}}}})
+        .dump();
+}
+
+void Pipeline::warnOnce(const std::string& warning) {
+    if (std::find(warned_.begin(), warned_.end(), warning) != warned_.end()) return;
+    warned_.push_back(warning);
+    warnings_.push_back(warning);
+}
+
+std::vector<std::string> Pipeline::takeWarnings() {
+    return std::exchange(warnings_, {});
+}
+
+}  // namespace penumbra

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// A frame from a scene: the passes in their order.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/gbuffer/gbuffer.h"
+#include "host/geometry/geometry.h"
+#include "host/penumbra.h"
+#include "host/scene/animation.h"
+#include "host/scene/bounds.h"
+#include "host/scene/camera.h"
+#include "host/scene/light.h"
+#include "host/shading/shade.h"
+#include "host/shading/temporal.h"
+#include "host/visibility/technique.h"
+#include "runtime/profiler.h"
+
+namespace penumbra {
+
+/// Which extra channels a frame carries.
+struct AovChoice {
+    bool visibility = false, depth = false, normal = false, position = false, albedo = false, id = false,
+         depthMaps = false;
+};
+/// Throws Error (usage) naming what is allowed.
+AovChoice parseAovs(const std::vector<std::string>& names);
+
+/// Loads options.scene, adds ground and lights as the options say.
+scene::Scene loadScene(const RenderOptions& options);
+
+class Pipeline {
+  public:
+    explicit Pipeline(const RenderOptions& options);
+    Pipeline(const RenderOptions& options, scene::Scene scene);
+    ~Pipeline();
+
+    Frame render(int number);
+    int frameCount() const;
+    std::vector<std::string> takeWarnings();
+    runtime::Device& device() { return *device_; }
+    const std::string& fingerprint() const { return fingerprint_; }
+    std::string statsJson() const;
+    const scene::Bounds& bounds() const { return bounds_; }
+
+  private:
+    double secondsOf(int number) const;
+    void makePasses();
+    void planMemory() const;
+    /// Renders into the device's images; repeats where a list was too short. Returns the repetitions.
+    int renderOnDevice(int number, bool keep);
+    void enqueue(const geometry::Mesh& mesh, bool keep);
+    bool anyListGrew();
+    void keepOutputs(std::size_t light);
+    Frame collect(int number);
+    std::string frameStats(const std::vector<runtime::StageTime>& stages, int number, double wallMs,
+                           int retries);
+    std::vector<std::pair<std::string, std::string>> header() const;
+    void warnOnce(const std::string& warning);
+
+    RenderOptions options_;
+    AovChoice aovs_;
+    std::unique_ptr<runtime::Device> device_;
+    scene::Scene scene_;
+    std::vector<int> clips_;
+    scene::Bounds bounds_;
+    std::string sceneDigest_;
+    int width_, height_;  ///< of the G-buffer: the frame's times supersample
+    std::unique_ptr<runtime::Program> program_;
+    std::unique_ptr<geometry::Geometry> geometry_;
+    std::unique_ptr<gbuffer::GBufferPass> gbuffer_;
+    std::unique_ptr<visibility::Technique> technique_;
+    std::unique_ptr<shading::Shade> shade_;
+    std::unique_ptr<shading::Temporal> temporal_;
+    visibility::Visibility visibility_;
+    std::vector<std::vector<float>> keptVisibility_;   ///< per light, when asked for
+    std::vector<visibility::DepthMaps> keptMaps_;
+    std::vector<scene::AreaLight> lights_;             ///< of the frame in flight
+    scene::CameraFrame camera_;
+    double exposure_ = 1;
+    glm::dvec3 ambient_{0};
+    std::string fingerprint_;
+    std::vector<std::string> warnings_, warned_;
+    std::optional<int> lastFrame_;   ///< whose history the temporal pass holds
+};
+
+}  // namespace penumbra

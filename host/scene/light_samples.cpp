@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "host/scene/light.h"
+#include "runtime/error.h"
+
+namespace penumbra::scene {
+namespace {
+
+constexpr int kMaxSamples = 4096;
+constexpr double kPi = 3.14159265358979323846;
+
+/// PCG hash: the same numbers on every machine.
+double uniform(std::uint32_t& state) {
+    state = state * 747796405U + 2891336453U;
+    std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737U;
+    word = (word >> 22) ^ word;
+    return (word + 0.5) / 4294967296.0;
+}
+
+double radicalInverse(std::uint32_t bits) {
+    double value = 0;
+    for (double digit = 0.5; bits; bits >>= 1, digit *= 0.5)
+        if (bits & 1) value += digit;
+    return value;
+}
+
+/// Shirley and Chiu's concentric map from the square [-1, 1]^2 to the unit disk.
+glm::dvec2 toDisk(const glm::dvec2& p) {
+    if (p.x == 0 && p.y == 0) return p;
+    const bool wide = std::abs(p.x) > std::abs(p.y);
+    const double r = wide ? p.x : p.y;
+    const double angle = wide ? kPi / 4 * (p.y / p.x) : kPi / 2 - kPi / 4 * (p.x / p.y);
+    return {r * std::cos(angle), r * std::sin(angle)};
+}
+
+std::vector<glm::dvec2> hammersley(int count) {
+    std::vector<glm::dvec2> points;
+    for (int i = 0; i < count; ++i)
+        points.emplace_back(2 * (i + 0.5) / count - 1,
+                            2 * (radicalInverse(static_cast<std::uint32_t>(i)) + 0.5 / count) - 1);
+    return points;
+}
+
+/// Mitchell's best candidate: each sample is the farthest of some random ones from those before it.
+std::vector<glm::dvec2> poisson(int count, std::uint32_t seed) {
+    std::vector<glm::dvec2> points;
+    std::uint32_t state = seed * 2654435769U + 12345U;
+    for (int i = 0; i < count; ++i) {
+        const int candidates = std::min(8 + i, 64);
+        glm::dvec2 best(0);
+        double bestDistance = -1;
+        for (int c = 0; c < candidates; ++c) {
+            const double x = 2 * uniform(state) - 1, y = 2 * uniform(state) - 1;
+            double nearest = 1e9;
+            for (const auto& p : points)
+                nearest = std::min(nearest, (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y));
+            if (nearest > bestDistance) bestDistance = nearest, best = {x, y};
+        }
+        points.push_back(best);
+    }
+    return points;
+}
+
+std::vector<glm::dvec2> cells(const SampleChoice& choice, bool disk) {
+    std::vector<glm::dvec2> points;
+    std::uint32_t state = choice.seed * 2654435769U + 999U;
+    const bool jitter = choice.pattern == Pattern::jittered;
+    for (int row = 0; row < choice.rows; ++row)
+        for (int column = 0; column < choice.columns; ++column) {
+            const double dx = jitter ? uniform(state) : 0.5, dy = jitter ? uniform(state) : 0.5;
+            const double cx = 2 * (column + 0.5) / choice.columns - 1;
+            const double cy = 2 * (row + 0.5) / choice.rows - 1;
+            if (disk && cx * cx + cy * cy > 1) continue;
+            points.emplace_back(2 * (column + dx) / choice.columns - 1, 2 * (row + dy) / choice.rows - 1);
+        }
+    return points;
+}
+
+int parseInt(const std::string& text, const std::string& whole) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    requireUsage(error == std::errc() && end == text.data() + text.size() && value > 0,
+                 "--light-samples '{}' is not a number of samples; allowed: N or MxN, 1 to {} in all", whole,
+                 kMaxSamples);
+    return value;
+}
+
+}  // namespace
+
+SampleChoice parseSampleCount(const std::string& text, SampleChoice choice) {
+    const auto cross = text.find('x');
+    if (cross == std::string::npos) {
+        choice.count = parseInt(text, text);
+        choice.columns = choice.rows = 0;
+    } else {
+        choice.columns = parseInt(text.substr(0, cross), text);
+        choice.rows = parseInt(text.substr(cross + 1), text);
+        requireUsage(choice.columns <= kMaxSamples && choice.rows <= kMaxSamples,
+                     "--light-samples {} has more than {} samples", text, kMaxSamples);
+        choice.count = choice.columns * choice.rows;
+        if (choice.pattern != Pattern::jittered) choice.pattern = Pattern::grid;
+    }
+    requireUsage(choice.count <= kMaxSamples, "--light-samples {} is outside of 1 to {}", text, kMaxSamples);
+    return choice;
+}
+
+Pattern parsePattern(const std::string& text) {
+    if (text == "hammersley") return Pattern::hammersley;
+    if (text == "poisson") return Pattern::poisson;
+    if (text == "grid") return Pattern::grid;
+    if (text == "jittered") return Pattern::jittered;
+    throw Error(fmt::format("--light-pattern '{}' is unknown; allowed: hammersley, poisson, grid, jittered",
+                            text),
+                ExitCode::usage);
+}
+
+std::vector<glm::dvec2> samplePattern(const SampleChoice& choice, bool disk) {
+    if (choice.count == 1) return {{0, 0}};
+    if (choice.pattern == Pattern::grid || choice.pattern == Pattern::jittered) {
+        SampleChoice grid = choice;
+        if (grid.columns == 0) {
+            // The most square grid of exactly this many cells
+            grid.rows = static_cast<int>(std::sqrt(static_cast<double>(choice.count)));
+            while (choice.count % grid.rows != 0) --grid.rows;
+            grid.columns = choice.count / grid.rows;
+        }
+        return cells(grid, disk);
+    }
+    auto points = choice.pattern == Pattern::poisson ? poisson(choice.count, choice.seed)
+                                                     : hammersley(choice.count);
+    if (disk)
+        for (auto& p : points) p = toDisk(p);
+    return points;
+}
+
+}  // namespace penumbra::scene

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "host/visibility/multi_view.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "kernels/shared/gbuffer.h"
+#include "runtime/error.h"
+#include "runtime/profiler.h"
+
+namespace penumbra::visibility {
+namespace {
+
+constexpr int kStreamedViews = 8;  // maps that a CPU holds at a time: more fall out of its caches
+constexpr float kOriginOffset = 4e-6F;
+
+}  // namespace
+
+MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings, int width, int height,
+                     const runtime::Program& program)
+    : device_(&device),
+      settings_(settings),
+      width_(width),
+      height_(height),
+      stride_((width * height + GB_PAD - 1) / GB_PAD * GB_PAD),
+      receivers_(program, "receivers"),
+      lookup32_(program, "map_lookup"),
+      lookup16_(program, "map_lookup16"),
+      average_(program, "map_average") {
+    requireUsage(settings.depthBits == 16 || settings.depthBits == 32,
+                 "depthBits = {} is neither 16 nor 32", settings.depthBits);
+    const auto pixels = static_cast<std::uint64_t>(stride_);
+    receiver_ = Buffer<float>(device, "receivers", runtime::Shape{1, RECEIVER_PLANES, pixels});
+    hidden_ = Buffer<std::uint32_t>(device, "hidden tests", pixels);
+    maps32_ = Buffer<std::uint32_t>(device, "depth maps", 1);
+    maps16_ = Buffer<std::uint16_t>(device, "depth maps", 1);
+}
+
+int MultiView::tapWeight() const {
+    switch (settings_.pcf) {
+        case Pcf::one: return 1;
+        case Pcf::five: return 5;
+        case Pcf::nine: return 9;
+        default: return 256;
+    }
+}
+
+int MultiView::batchSize(const LightView& view, bool wide) const {
+    const auto texels = static_cast<std::uint64_t>(view.params.mapStride);
+    const std::uint64_t perView =
+        texels * ((settings_.depthBits == 16 ? 2U : 0U) + (settings_.depthBits == 32 || wide ? 4U : 0U));
+    const auto& info = device_->info();
+    const auto used = device_->memory().current;
+    const auto limit = device_->memoryLimitBytes();
+    const std::uint64_t held = maps32_.bytes() + maps16_.bytes();
+    const std::uint64_t usable = (limit > used ? limit - used : 0) + held;
+    const std::uint64_t most = std::min(usable / 10 * 8, info.maxAllocBytes) / perView;
+    int batch = view.params.views;
+    if (settings_.viewsPerBatch > 0)
+        batch = settings_.viewsPerBatch;
+    else if (info.isCpu)
+        batch = std::max(kStreamedViews, info.computeUnits);
+    batch = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(batch), most));
+    if (batch < 1)
+        throw Error(fmt::format("out of memory: one depth map of {}x{} needs {:.1f} MB, {:.1f} MB are left on "
+                                "{}; use a smaller resolution",
+                                view.params.resolution, view.params.resolution,
+                                static_cast<double>(perView) / 1048576.0,
+                                static_cast<double>(usable) / 1048576.0, info.name),
+                    ExitCode::outOfMemory);
+    return std::min(batch, view.params.views);
+}
+
+void MultiView::allocateMaps(const LightView& view, int batch, bool wide) {
+    const auto texels =
+        static_cast<std::uint64_t>(view.params.mapStride) * static_cast<std::uint64_t>(batch);
+    if (settings_.depthBits == 16) maps16_.grow(*device_, "depth maps", texels);
+    if (settings_.depthBits == 32 || wide) maps32_.grow(*device_, "depth maps", texels);
+}
+
+void MultiView::run(const Inputs& inputs, double density, MapSource& source, Visibility& visibility) {
+    LightView view = fitLightView(inputs.light, inputs.casters, inputs.centre, settings_.resolution, density);
+    view.params.depthBits = settings_.depthBits;
+    if (view.density < density * 0.999)
+        warnings_.push_back(fmt::format("light '{}': the enlarged view is capped at {} pixels: density {:.2f} of "
+                                        "{:.2f}; use a smaller resolution or a larger near=",
+                                        inputs.light.name, view.params.enlarged, view.density, density));
+    if (nextLight_ == lights_.size()) lights_.push_back(std::make_unique<PerLight>());
+    PerLight& light = *lights_[nextLight_++];
+    light.samples.grow(*device_, "light samples", view.samples.size());
+    light.samples.uploadLater(view.samples);
+    light.counters.grow(*device_, "counters", 1);
+    light.counters.fill({});
+
+    auto& profiler = device_->profiler();
+    source.begin(inputs, view, light.samples, light.counters);
+    profiler.beginStage("lighting");
+    shared::ReceiverParams image{};
+    image.width = width_;
+    image.height = height_;
+    image.planeStride = stride_;
+    image.pixelStep = 1;
+    image.originOffset = kOriginOffset;
+    image.worldMagnitude = static_cast<float>(inputs.casters.empty ? 0 : inputs.casters.radius());
+    const auto pixels = static_cast<std::uint64_t>(stride_);
+    receivers_.launch({pixels}, {64}, image, view.params, inputs.gbuffer.planes, receiver_,
+                      visibility.state, hidden_, light.counters);
+
+    const bool wide = source.needsWideMaps();
+    const int batch = batchSize(view, wide);
+    allocateMaps(view, batch, wide);
+    for (int first = 0; first < view.params.views; first += batch) {
+        MapBatch maps{first, std::min(batch, view.params.views - first), &maps32_,
+                      settings_.depthBits == 16 ? &maps16_ : nullptr};
+        profiler.beginStage("depth maps");
+        source.fill(maps);
+        profiler.beginStage("lighting");
+        lookup(view, maps, light);
+        if (inputs.depthMaps) keepMaps(view, maps, *inputs.depthMaps);
+    }
+    average_.launch({pixels}, {64}, stride_, view.params.views, tapWeight(), visibility.state, hidden_,
+                    visibility.planes);
+    visibility.channels = 1;
+}
+
+void MultiView::lookup(const LightView& view, const MapBatch& batch, PerLight& light) {
+    shared::LookupParams params{};
+    params.firstView = params.mapView = batch.firstView;
+    params.viewCount = batch.viewCount;
+    const int taps[] = {1, 5, 9, 4};
+    params.pcf = taps[static_cast<int>(settings_.pcf)];
+    params.slopeBias = settings_.slopeBias;
+    params.constantTexels = settings_.constantBias;
+    params.constantMetres = settings_.bias;
+    params.quantum = settings_.depthBits == 16 ? 1.0F / 65535 : 0;
+    const auto items = static_cast<std::uint64_t>(stride_ / device_->info().lanes);
+    if (batch.maps16)
+        lookup16_.launch({items}, {64}, view.params, params, stride_, receiver_, light.samples,
+                         *batch.maps16, hidden_);
+    else
+        lookup32_.launch({items}, {64}, view.params, params, stride_, receiver_, light.samples,
+                         *batch.maps32, hidden_);
+}
+
+void MultiView::keepMaps(const LightView& view, const MapBatch& batch, DepthMaps& out) {
+    const auto size = static_cast<std::size_t>(view.params.resolution);
+    const auto stride = static_cast<std::size_t>(view.params.mapStride);
+    out.views = view.params.views;
+    out.size = view.params.resolution;
+    out.depths.resize(static_cast<std::size_t>(out.views) * size * size);
+    const auto total = static_cast<std::uint64_t>(batch.viewCount) * stride;
+    std::vector<float> depths;
+    if (batch.maps16) {
+        for (const auto value : batch.maps16->download(0, total)) depths.push_back(static_cast<float>(value) / 65535.0F);
+    } else {
+        for (const auto bits : batch.maps32->download(0, total)) depths.push_back(std::bit_cast<float>(bits));
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.viewCount); ++i)
+        std::copy_n(depths.begin() + static_cast<std::ptrdiff_t>(i * stride), size * size,
+                    out.depths.begin() +
+                        static_cast<std::ptrdiff_t>((static_cast<std::size_t>(batch.firstView) + i) * size * size));
+}
+
+Counts MultiView::takeCounts() {
+    Counts counts;
+    for (std::size_t i = 0; i < nextLight_; ++i) {
+        const auto c = lights_[i]->counters.download()[0];
+        counts.points += c.points;
+        counts.outsideFov += c.outsideFov;
+        counts.nearPoints += c.nearPoints;
+    }
+    nextLight_ = 0;
+    warnings_.clear();
+    return counts;
+}
+
+}  // namespace penumbra::visibility

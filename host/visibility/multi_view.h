@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Averages shadow tests over the parallel views of a light, a batch of depth maps at a time. A Source
+// fills the maps; cropping, bias, filtering and accumulation are the same for every source.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/visibility/light_view.h"
+#include "host/visibility/multi_view_settings.h"
+#include "host/visibility/technique.h"
+
+namespace penumbra::visibility {
+
+/// Depth maps [view - firstView, row, column] with a stride of params.mapStride texels.
+struct MapBatch {
+    int firstView = 0, viewCount = 0;
+    Buffer<std::uint32_t>* maps32 = nullptr;  ///< float bits
+    Buffer<std::uint16_t>* maps16 = nullptr;  ///< depth x 65535; null with 32 bits
+};
+
+/// Fills depth maps of the views of one light.
+class MapSource {
+  public:
+    virtual ~MapSource() = default;
+    /// Called once per light, before its batches. May adapt `view.params`.
+    virtual void begin(const Inputs& inputs, LightView& view, Buffer<float>& samples,
+                       Buffer<shared::MultiViewCounters>& counters) = 0;
+    /// Enqueues filling all maps of the batch.
+    virtual void fill(const MapBatch& batch) = 0;
+    /// True if 16-bit maps need 32-bit ones beside them to be filled.
+    virtual bool needsWideMaps() const = 0;
+    virtual bool grew() = 0;
+};
+
+class MultiView {
+  public:
+    MultiView(runtime::Device& device, const MultiViewSettings& settings, int width, int height,
+              const runtime::Program& program);
+
+    void run(const Inputs& inputs, double density, MapSource& source, Visibility& visibility);
+    /// Reads the counters of the frame's lights (waits) and starts anew.
+    Counts takeCounts();
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
+  private:
+    struct PerLight {
+        Buffer<float> samples;
+        Buffer<shared::MultiViewCounters> counters;
+        bool used = false;
+    };
+    int batchSize(const LightView& view, bool wide) const;
+    void allocateMaps(const LightView& view, int batch, bool wide);
+    void lookup(const LightView& view, const MapBatch& batch, PerLight& light);
+    void keepMaps(const LightView& view, const MapBatch& batch, DepthMaps& out);
+    int tapWeight() const;
+
+    runtime::Device* device_;
+    MultiViewSettings settings_;
+    int width_, height_, stride_;
+    template <typename Texel>
+    using Lookup = runtime::Kernel<shared::MultiViewParams, shared::LookupParams, int, Buffer<float>,
+                                   Buffer<float>, Buffer<Texel>, Buffer<std::uint32_t>>;
+    runtime::Kernel<shared::ReceiverParams, shared::MultiViewParams, Buffer<float>, Buffer<float>,
+                    Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<shared::MultiViewCounters>>
+        receivers_;
+    Lookup<std::uint32_t> lookup32_;
+    Lookup<std::uint16_t> lookup16_;
+    runtime::Kernel<int, int, int, Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<float>> average_;
+    Buffer<float> receiver_;
+    Buffer<std::uint32_t> hidden_;
+    Buffer<std::uint32_t> maps32_;
+    Buffer<std::uint16_t> maps16_;
+    std::vector<std::unique_ptr<PerLight>> lights_;
+    std::size_t nextLight_ = 0;
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace penumbra::visibility

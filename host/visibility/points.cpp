@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "host/visibility/points.h"
+
+#include "runtime/error.h"
+
+namespace penumbra::visibility {
+
+constexpr std::uint64_t kFirstCapacity = 1 << 18;
+
+Points::Points(const runtime::Program& multiView, Cull cull, Precision precision)
+    : device_(&multiView.device()),
+      cull_(cull),
+      precision_(precision),
+      tiles_(multiView.device()),
+      points_(multiView, "points"),
+      direct_(multiView, "points_direct") {
+    buffers_.points32 = runtime::Buffer<float>(*device_, "points", 1);
+    buffers_.points16 = runtime::Buffer<std::uint16_t>(*device_, "points", 1);
+    buffers_.keys = runtime::Buffer<std::uint32_t>(*device_, "point opacities", 1);
+}
+
+void Points::adapt(const geometry::Mesh& mesh, LightView& view) const {
+    view.params.precision = static_cast<int>(precision_);
+    view.params.alphaKeys = mesh.hasBlend ? 1 : 0;
+    view.params.pointCapacity = capacity_;
+}
+
+bool Points::grow(std::uint64_t count) {
+    if (count <= capacity_ && capacity_ > 0) return false;
+    const std::uint64_t wanted = std::max(kFirstCapacity, (count + count / 4 + 15) / 16 * 16);
+    if (wanted > 0x7fffffffULL)
+        throw Error(fmt::format("out of memory: {} points; use a smaller resolution or density", count),
+                    ExitCode::outOfMemory);
+    if (precision_ == Precision::single)
+        buffers_.points32.grow(*device_, "points", 3 * wanted);
+    else
+        buffers_.points16.grow(*device_, "points", 3 * wanted);
+    capacity_ = static_cast<std::uint32_t>(wanted);
+    return true;
+}
+
+shared::RasterView Points::rasterView(const geometry::Mesh&, const LightView& view) const {
+    auto raster = view.enlarged;
+    raster.requireFlags = DRAW_CASTS;
+    if (cull_ == Cull::automatic) raster.cullBack = DRAW_CLOSED;
+    if (cull_ == Cull::back) raster.cullBack = DRAW_ANY;
+    if (cull_ == Cull::front) raster.cullFront = DRAW_ANY;
+    return raster;
+}
+
+void Points::run(const geometry::Mesh& mesh, const LightView& view,
+                 runtime::Buffer<shared::MultiViewCounters>& counters) {
+    if (view.params.alphaKeys) buffers_.keys.grow(*device_, "point opacities", capacity_);
+    tiles_.clear();
+    points_.launch(rasterView(mesh, view), mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels,
+                   view.params, buffers_.points32, buffers_.points16, buffers_.keys, counters);
+}
+
+void Points::runDirect(const geometry::Mesh& mesh, const LightView& view,
+                       const shared::LookupParams& views, const runtime::Buffer<float>& samples,
+                       runtime::Buffer<std::uint32_t>& maps,
+                       runtime::Buffer<shared::MultiViewCounters>& counters) {
+    tiles_.clear();
+    direct_.launch(rasterView(mesh, view), mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels,
+                   view.params, views, samples, maps, counters);
+}
+
+}  // namespace penumbra::visibility

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// What every shadow technique offers. A technique composes passes; it never calls another technique.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/gbuffer/gbuffer.h"
+#include "host/geometry/geometry.h"
+#include "host/scene/bounds.h"
+#include "host/scene/light.h"
+#include "host/settings.h"
+#include "runtime/memory_plan.h"
+
+namespace penumbra::visibility {
+
+using gbuffer::GBuffer;
+using geometry::Mesh;
+using runtime::Buffer;
+
+/// Share of the light that each pixel sees, 0 to 1: float [channels, planeStride].
+struct Visibility {
+    int channels = 1;
+    Buffer<float> planes;
+    Buffer<std::uint32_t> state;  ///< [planeStride] STATE_*: what metrics leave out
+};
+
+/// Depth maps on the host, when the user asks to see them: [view, row, column], reversed depth.
+struct DepthMaps {
+    int views = 0, size = 0;
+    std::vector<float> depths;
+};
+
+struct Inputs {
+    const Mesh& mesh;
+    const GBuffer& gbuffer;
+    const scene::AreaLight& light;
+    const scene::Bounds& casters;
+    glm::dvec3 centre;               ///< what the world was re-based to
+    DepthMaps* depthMaps = nullptr;  ///< filled if not null (waits for the device)
+};
+
+/// What a frame of a technique did; summed over lights.
+struct Counts {
+    std::uint64_t points = 0, outsideFov = 0, nearPoints = 0;
+};
+
+class Technique {
+  public:
+    virtual ~Technique() = default;
+    /// Once a frame, before the lights: trees and sorts that all lights share.
+    virtual void prepare(const Mesh&) {}
+    /// Enqueues one light's visibility. Allocates only when sizes change.
+    virtual void run(const Inputs& inputs, Visibility& visibility) = 0;
+    /// Waits for the device; true if a list was too short and has grown: repeat the frame.
+    virtual bool grew() { return false; }
+    /// Counts of the frame; call after grew(). Starts anew.
+    virtual Counts takeCounts() { return {}; }
+    /// Settings in force.
+    virtual std::vector<SettingRow> settings() const { return {}; }
+    /// Names what the last frame had to give up, once each ("density 0.7 of 1 ...").
+    virtual std::vector<std::string> warnings() const { return {}; }
+};
+
+/// What a technique is made with.
+struct TechniqueContext {
+    runtime::Device& device;
+    const SettingValues& values;
+    int width, height;  ///< of the G-buffer
+};
+
+/// A row of the list of techniques.
+struct TechniqueEntry {
+    const char* name;
+    const char* summary;
+    const char* source;    ///< key of the paper and section
+    const char* failures;  ///< known failures, for `penumbra techniques`
+    std::vector<SettingRow> (*describe)();
+    std::unique_ptr<Technique> (*make)(const TechniqueContext&);
+};
+
+/// The only list; see techniques.cpp.
+const std::vector<TechniqueEntry>& techniques();
+/// Throws Error (usage) naming the techniques.
+const TechniqueEntry& findTechnique(const std::string& name);
+
+}  // namespace penumbra::visibility

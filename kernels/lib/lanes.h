@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// LANES pixels, points or rays at once: 16 or 8 in a CPU's vector registers, 1 on a GPU, where each
+// work-item is a lane. The same source gives the same bits at every width.
+// Masks (VM) are integers: all bits of a lane set, or none.
+#ifndef LIB_LANES_H
+#define LIB_LANES_H
+
+#ifndef LANES
+#define LANES 1
+#endif
+#define LANES_JOIN_(a, b) a##b
+#define LANES_JOIN(a, b) LANES_JOIN_(a, b)
+
+#if LANES == 1
+typedef float VF;
+typedef int VI;
+typedef uint VU;
+#define V_LOAD(p, i) ((p)[i])
+#define V_STORE(v, p, i) ((p)[i] = (v))
+#define V_MASK(c) (-(int)(c))  // scalar comparisons give 0 or 1, vector ones 0 or -1
+#define V_SELECT(no, yes, mask) ((mask) ? (yes) : (no))
+#define V_ANY(mask) ((mask) != 0)
+#define V_ALL(mask) ((mask) != 0)
+#define V_INDEX (0)
+#define V_LANE(v, i) (v)
+#define V_GATHER_(T, p, i) ((T)((p)[i]))
+#define V_AS_UINT as_uint
+#define V_AS_INT as_int
+#define V_AS_FLOAT as_float
+#define V_TO_INT convert_int
+#define V_TO_FLOAT convert_float
+#define V_LOAD_HALF(p, i) vload_half(i, p)
+#else
+typedef LANES_JOIN(float, LANES) VF;
+typedef LANES_JOIN(int, LANES) VI;
+typedef LANES_JOIN(uint, LANES) VU;
+#define V_LOAD(p, i) LANES_JOIN(vload, LANES)(0, (p) + (i))
+#define V_STORE(v, p, i) LANES_JOIN(vstore, LANES)(v, 0, (p) + (i))
+#define V_MASK(c) (c)
+#define V_SELECT(no, yes, mask) select((no), (yes), (mask))
+#define V_ANY(mask) any(mask)
+#define V_ALL(mask) all(mask)
+#define V_AS_UINT LANES_JOIN(as_uint, LANES)
+#define V_AS_INT LANES_JOIN(as_int, LANES)
+#define V_AS_FLOAT LANES_JOIN(as_float, LANES)
+#define V_TO_INT LANES_JOIN(convert_int, LANES)
+#define V_TO_FLOAT LANES_JOIN(convert_float, LANES)
+#define V_LOAD_HALF(p, i) LANES_JOIN(vload_half, LANES)(0, (p) + (i))
+#if LANES == 8
+#define V_INDEX ((VI)(0, 1, 2, 3, 4, 5, 6, 7))
+#define V_GATHER_(T, p, i) \
+    (T)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], (p)[(i).s7])
+#else
+#define V_INDEX ((VI)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#define V_GATHER_(T, p, i)                                                                          \
+    (T)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6],  \
+        (p)[(i).s7], (p)[(i).s8], (p)[(i).s9], (p)[(i).sa], (p)[(i).sb], (p)[(i).sc], (p)[(i).sd],  \
+        (p)[(i).se], (p)[(i).sf])
+#endif
+#endif
+
+#endif

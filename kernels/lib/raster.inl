@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// The rasteriser core; paste it once per fragment action. Before the paste define
+//   RASTER_KERNEL       name of the first kernel; the second is RASTER_KERNEL_LARGE
+//   RASTER_PARAMETERS   further kernel parameters, with a leading comma; may be empty
+//   RASTER_BEGIN        statements at a work-item's start (local variables of the action)
+//   RASTER_TRIANGLE     statements before a triangle's fragments
+//   RASTER_FRAGMENT     statements per fragment; they see x, y, depth, triangle, draw, v (vertices
+//                       before clipping) and the kernel's parameters
+//   RASTER_END          statements at a work-item's end
+//
+//   triangles --small--> fragments
+//             --large--> list of (triangle, tile) --one work-group each--> fragments
+// The list's counter counts past its capacity without writing: the host grows it and repeats.
+// Fragments come in no fixed order; actions must commute.
+
+#ifndef RASTER_CHUNK
+#ifdef ON_CPU
+#define RASTER_CHUNK 64  // triangles of a work-item
+#else
+#define RASTER_CHUNK 1
+#endif
+
+inline void rasterAppendTiles(const RasterView* view, global uint* tileCount, global RasterTile* tiles,
+                              const RasterTriangle* t, uint triangle, uint part) {
+    const int left = t->minX / RASTER_TILE, right = t->maxX / RASTER_TILE;
+    const int top = t->minY / RASTER_TILE, bottom = t->maxY / RASTER_TILE;
+    const uint wanted = (uint)(right - left + 1) * (uint)(bottom - top + 1);
+    uint slot = atomic_add(tileCount, wanted);
+    for (int row = top; row <= bottom; ++row)
+        for (int column = left; column <= right; ++column, ++slot) {
+            if (slot >= view->tileCapacity) continue;
+            tiles[slot].triangle = triangle;
+            tiles[slot].tile = (uint)(row * 512 + column) | part << 28;
+        }
+}
+#endif
+
+/// One work-item per RASTER_CHUNK triangles: draws the small ones, lists the tiles of the others.
+kernel void RASTER_KERNEL(const RasterView view, global const float* restrict positions,
+                          global const uint* restrict indices, global const uint* restrict triangleDraw,
+                          global const Draw* restrict draws, global uint* tileCount,
+                          global RasterTile* restrict tiles RASTER_PARAMETERS) {
+    const uint begin = (uint)get_global_id(0) * RASTER_CHUNK;
+    const uint end = min(begin + RASTER_CHUNK, (uint)view.triangleCount);
+    RASTER_BEGIN
+    for (uint triangle = begin; triangle < end; ++triangle) {
+        const uint drawIndex = triangleDraw[triangle];
+        const Draw draw = draws[drawIndex];
+        if ((draw.flags & view.requireFlags) != view.requireFlags) continue;
+        RasterVertex v[3];
+        for (int i = 0; i < 3; ++i) v[i] = rasterVertex(&view, positions, indices[3 * triangle + i]);
+        const int kind = rasterClassify(&view, v);
+        if (kind == RASTER_REJECT) continue;
+        RasterTriangle t;
+        if (kind == RASTER_CLIP) {
+            RasterVertex corners[RASTER_MAX_CORNERS];
+            for (int i = 0; i < 3; ++i) corners[i] = v[i];
+            const int count = rasterClip(corners);
+            for (int part = 0; part + 2 < count; ++part)
+                if (rasterSetup(&view, draw.flags, corners[0], corners[part + 1], corners[part + 2], &t))
+                    rasterAppendTiles(&view, tileCount, tiles, &t, triangle, (uint)part);
+            continue;
+        }
+        if (!rasterSetup(&view, draw.flags, v[0], v[1], v[2], &t)) continue;
+        if (!t.small) {
+            rasterAppendTiles(&view, tileCount, tiles, &t, triangle, 0);
+            continue;
+        }
+        RASTER_TRIANGLE
+        int e0 = rasterEdgeAt(t.edge[0], t.minX, t.minY);
+        int e1 = rasterEdgeAt(t.edge[1], t.minX, t.minY);
+        int e2 = rasterEdgeAt(t.edge[2], t.minX, t.minY);
+        for (int y = t.minY; y <= t.maxY; ++y) {
+            for (int x = t.minX; x <= t.maxX; ++x) {
+                if ((e0 | e1 | e2) >= 0) {
+                    const float depth = rasterDepth(&t, x, y);
+                    RASTER_FRAGMENT
+                }
+                e0 += t.edge[0].a;
+                e1 += t.edge[1].a;
+                e2 += t.edge[2].a;
+            }
+            const int back = t.maxX - t.minX + 1;
+            e0 += t.edge[0].b - back * t.edge[0].a;
+            e1 += t.edge[1].b - back * t.edge[1].a;
+            e2 += t.edge[2].b - back * t.edge[2].a;
+        }
+    }
+    RASTER_END
+}
+
+/// Work-groups take the listed tiles in turn; their work-items share a tile's pixels.
+kernel void RASTER_KERNEL_LARGE(const RasterView view, global const float* restrict positions,
+                                global const uint* restrict indices,
+                                global const uint* restrict triangleDraw,
+                                global const Draw* restrict draws, global const uint* tileCount,
+                                global const RasterTile* restrict tiles RASTER_PARAMETERS) {
+    const uint count = min(*tileCount, view.tileCapacity);
+    RASTER_BEGIN
+    for (uint job = get_group_id(0); job < count; job += get_num_groups(0)) {
+        const uint triangle = tiles[job].triangle;
+        const uint tile = tiles[job].tile & 0x0fffffffu, part = tiles[job].tile >> 28;
+        const uint drawIndex = triangleDraw[triangle];
+        const Draw draw = draws[drawIndex];
+        RasterVertex v[3], corners[RASTER_MAX_CORNERS];
+        for (int i = 0; i < 3; ++i)
+            corners[i] = v[i] = rasterVertex(&view, positions, indices[3 * triangle + i]);
+        if (rasterClassify(&view, v) == RASTER_CLIP) rasterClip(corners);
+        RasterTriangle t;
+        if (!rasterSetup(&view, draw.flags, corners[0], corners[part + 1], corners[part + 2], &t))
+            continue;
+        const int left = (int)(tile % 512) * RASTER_TILE, top = (int)(tile / 512) * RASTER_TILE;
+        const int minX = max(left, t.minX), maxX = min(left + RASTER_TILE - 1, t.maxX);
+        const int minY = max(top, t.minY), maxY = min(top + RASTER_TILE - 1, t.maxY);
+        // Skip tiles that one edge leaves out as a whole
+        int base[3], outside = 0;
+        for (int i = 0; i < 3; ++i) {
+            base[i] = rasterEdgeAt(t.edge[i], left, top);
+            const int reach = max(t.edge[i].a, 0) + max(t.edge[i].b, 0);
+            outside |= base[i] + (RASTER_TILE - 1) * reach < 0;
+        }
+        if (outside) continue;
+        RASTER_TRIANGLE
+        const int columns = maxX - minX + 1, pixels = columns * (maxY - minY + 1);
+        for (int pixel = (int)get_local_id(0); pixel < pixels; pixel += (int)get_local_size(0)) {
+            const int x = minX + pixel % columns, y = minY + pixel / columns;
+            const int e0 = base[0] + t.edge[0].a * (x - left) + t.edge[0].b * (y - top);
+            const int e1 = base[1] + t.edge[1].a * (x - left) + t.edge[1].b * (y - top);
+            const int e2 = base[2] + t.edge[2].a * (x - left) + t.edge[2].b * (y - top);
+            if ((e0 | e1 | e2) >= 0) {
+                const float depth = rasterDepth(&t, x, y);
+                RASTER_FRAGMENT
+            }
+        }
+    }
+    RASTER_END
+}
+
+#undef RASTER_KERNEL
+#undef RASTER_KERNEL_LARGE
+#undef RASTER_PARAMETERS
+#undef RASTER_BEGIN
+#undef RASTER_TRIANGLE
+#undef RASTER_FRAGMENT
+#undef RASTER_END

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// glTF structure: one buffer, one bufferView per accessor, each aligned to four bytes.
+#include "make_scene_gltf.h"
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+namespace tools {
+
+using nlohmann::json;
+
+namespace {
+
+// Constants of glTF 2.0.
+constexpr int kUnsignedByte = 5121;
+constexpr int kUnsignedShort = 5123;
+constexpr int kUnsignedInt = 5125;
+constexpr int kFloat = 5126;
+constexpr int kNoTarget = 0;
+constexpr int kArrayBuffer = 34962;
+constexpr int kElementArrayBuffer = 34963;
+constexpr uint32_t kMagic = 0x46546C67;      // "glTF"
+constexpr uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
+constexpr uint32_t kBinaryChunk = 0x004E4942;
+
+int lastOf(const json& array) {
+    return static_cast<int>(array.size()) - 1;
+}
+
+}  // namespace
+
+json toJson(const glm::vec3& v) {
+    return json::array({v.x, v.y, v.z});
+}
+json toJson(const glm::quat& q) {
+    return json::array({q.x, q.y, q.z, q.w});
+}
+
+GltfWriter::GltfWriter() {
+    document_["asset"] = {{"version", "2.0"}, {"generator", "penumbra make_scene"}};
+    for (const char* list : {"accessors", "bufferViews", "materials", "meshes", "nodes"}) {
+        document_[list] = json::array();
+    }
+}
+
+int GltfWriter::addMaterial(std::string_view name, const glm::vec3& baseColor, float roughness) {
+    document_["materials"].push_back(
+        {{"name", name},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {baseColor.x, baseColor.y, baseColor.z, 1}},
+           {"metallicFactor", 0},
+           {"roughnessFactor", roughness}}}});
+    return lastOf(document_["materials"]);
+}
+
+template <typename Element>
+int GltfWriter::addAccessor(const std::vector<Element>& elements, int componentType,
+                            std::string_view type, int target) {
+    while (binary_.size() % 4 != 0) binary_.push_back(0);
+    const size_t offset = binary_.size();
+    const size_t sizeBytes = elements.size() * sizeof(Element);
+    const auto* bytes = reinterpret_cast<const uint8_t*>(elements.data());
+    binary_.insert(binary_.end(), bytes, bytes + sizeBytes);
+    json view = {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", sizeBytes}};
+    if (target != kNoTarget) view["target"] = target;
+    document_["bufferViews"].push_back(view);
+    document_["accessors"].push_back({{"bufferView", lastOf(document_["bufferViews"])},
+                                      {"componentType", componentType},
+                                      {"count", elements.size()},
+                                      {"type", type}});
+    return lastOf(document_["accessors"]);
+}
+
+int GltfWriter::addIndices(const std::vector<uint32_t>& indices, size_t vertexCount) {
+    if (vertexCount > 65535)
+        return addAccessor(indices, kUnsignedInt, "SCALAR", kElementArrayBuffer);
+    const std::vector<uint16_t> narrow(indices.begin(), indices.end());
+    return addAccessor(narrow, kUnsignedShort, "SCALAR", kElementArrayBuffer);
+}
+
+json GltfWriter::addAttributes(const Mesh& mesh) {
+    glm::vec3 low = mesh.positions.front();
+    glm::vec3 high = low;
+    for (const glm::vec3& position : mesh.positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    const int positions = addAccessor(mesh.positions, kFloat, "VEC3", kArrayBuffer);
+    document_["accessors"][positions]["min"] = toJson(low);
+    document_["accessors"][positions]["max"] = toJson(high);
+    return {{"POSITION", positions},
+            {"NORMAL", addAccessor(mesh.normals, kFloat, "VEC3", kArrayBuffer)}};
+}
+
+int GltfWriter::addMesh(std::string_view name, const Mesh& mesh, int material) {
+    const json attributes = addAttributes(mesh);
+    const int indices = addIndices(mesh.indices, mesh.positions.size());
+    const json primitive = {
+        {"attributes", attributes}, {"indices", indices}, {"material", material}};
+    document_["meshes"].push_back({{"name", name}, {"primitives", json::array({primitive})}});
+    return lastOf(document_["meshes"]);
+}
+
+int GltfWriter::addFigureMesh(std::string_view name, const Figure& figure) {
+    json attributes = addAttributes(figure.skin);
+    attributes["JOINTS_0"] = addAccessor(figure.joints, kUnsignedByte, "VEC4", kArrayBuffer);
+    const int weights = addAccessor(figure.weights, kUnsignedShort, "VEC4", kArrayBuffer);
+    document_["accessors"][weights]["normalized"] = true;
+    attributes["WEIGHTS_0"] = weights;
+    json primitives = json::array();
+    for (size_t i = 0; i < figure.materials.size(); ++i) {
+        const FigureMaterial& look = figure.materials[i];
+        const int indices = addIndices(figure.indicesOf[i], figure.skin.positions.size());
+        const int material = addMaterial(look.name, look.baseColor, look.roughness);
+        primitives.push_back(
+            {{"attributes", attributes}, {"indices", indices}, {"material", material}});
+    }
+    document_["meshes"].push_back({{"name", name}, {"primitives", primitives}});
+    return lastOf(document_["meshes"]);
+}
+
+int GltfWriter::addNode(json node) {
+    document_["nodes"].push_back(std::move(node));
+    return lastOf(document_["nodes"]);
+}
+
+void GltfWriter::addChild(int parent, int child) {
+    document_["nodes"][parent]["children"].push_back(child);
+}
+
+int GltfWriter::addSkin(std::string_view name, int firstJointNode) {
+    std::vector<glm::mat4> jointFromMesh;
+    json joints = json::array();
+    for (int joint = 0; joint < kJointCount; ++joint) {
+        glm::mat4 inverse(1);
+        inverse[3] = glm::vec4(-skeleton()[joint].restPosition, 1);
+        jointFromMesh.push_back(inverse);
+        joints.push_back(firstJointNode + joint);
+    }
+    const int matrices = addAccessor(jointFromMesh, kFloat, "MAT4", kNoTarget);
+    document_["skins"].push_back({{"name", name},
+                                  {"inverseBindMatrices", matrices},
+                                  {"joints", joints},
+                                  {"skeleton", firstJointNode}});
+    return lastOf(document_["skins"]);
+}
+
+void GltfWriter::addWalk(std::string_view name, const WalkClip& clip, int firstJointNode) {
+    const int times = addAccessor(clip.timesSeconds, kFloat, "SCALAR", kNoTarget);
+    document_["accessors"][times]["min"] = {clip.timesSeconds.front()};
+    document_["accessors"][times]["max"] = {clip.timesSeconds.back()};
+    json samplers = json::array();
+    json channels = json::array();
+    const auto addChannel = [&](int output, int node, std::string_view path) {
+        samplers.push_back({{"input", times}, {"interpolation", "LINEAR"}, {"output", output}});
+        channels.push_back(
+            {{"sampler", lastOf(samplers)}, {"target", {{"node", node}, {"path", path}}}});
+    };
+    addChannel(addAccessor(clip.hipsTranslations, kFloat, "VEC3", kNoTarget), firstJointNode,
+               "translation");
+    for (int joint = 0; joint < kJointCount; ++joint) {
+        std::vector<glm::vec4> keys;  // x, y, z, w whatever glm's own order
+        for (const glm::quat& q : clip.rotations[joint]) keys.emplace_back(q.x, q.y, q.z, q.w);
+        addChannel(addAccessor(keys, kFloat, "VEC4", kNoTarget), firstJointNode + joint,
+                   "rotation");
+    }
+    document_["animations"].push_back(
+        {{"name", name}, {"samplers", samplers}, {"channels", channels}});
+}
+
+size_t GltfWriter::write(const std::string& path) {
+    while (binary_.size() % 4 != 0) binary_.push_back(0);
+    document_["buffers"] = json::array({{{"byteLength", binary_.size()}}});
+    std::string text = document_.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const auto jsonBytes = static_cast<uint32_t>(text.size());
+    const auto binaryBytes = static_cast<uint32_t>(binary_.size());
+    const uint32_t totalBytes = 12 + 8 + jsonBytes + 8 + binaryBytes;
+    std::ofstream file(path, std::ios::binary);
+    // Words byte by byte; the buffer itself is copied, so this tool wants a little-endian machine.
+    const auto writeWord = [&](uint32_t word) {
+        for (unsigned shift = 0; shift < 32; shift += 8)
+            file.put(static_cast<char>((word >> shift) & 0xFFU));
+    };
+    for (const uint32_t word : {kMagic, 2U, totalBytes, jsonBytes, kJsonChunk}) writeWord(word);
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    writeWord(binaryBytes);
+    writeWord(kBinaryChunk);
+    file.write(reinterpret_cast<const char*>(binary_.data()),
+               static_cast<std::streamsize>(binary_.size()));
+    file.close();
+    if (!file) throw std::runtime_error("cannot write '" + path + "'");
+    return totalBytes;
+}
+
+}  // namespace tools
