@@ -102,8 +102,8 @@ inline RasterEdge rasterEdge(int xa, int ya, int xb, int yb) {
     e.a = -dy;
     e.b = dx;
     // Value at the centre of pixel (0, 0); only edges at the top and left own their points
-    const int half = 1 << (RASTER_SUBPIXEL_BITS - 1);
-    const long value = (long)dx * (half - ya) - (long)dy * (half - xa);
+    const int midpoint = 1 << (RASTER_SUBPIXEL_BITS - 1);
+    const long value = (long)dx * (midpoint - ya) - (long)dy * (midpoint - xa);
     const int owns = dy < 0 || (dy == 0 && dx > 0);
     e.c = (value - (owns ? 0 : 1)) >> RASTER_SUBPIXEL_BITS;
     return e;
@@ -133,11 +133,11 @@ inline int rasterSetup(const RasterView* view, uint flags, RasterVertex v0, Rast
 
     const int left = min(x0, min(x1, x2)), right = max(x0, max(x1, x2));
     const int top = min(y0, min(y1, y2)), bottom = max(y0, max(y1, y2));
-    const int half = 1 << (RASTER_SUBPIXEL_BITS - 1), round = half - 1;
-    t->minX = max((left + round) >> RASTER_SUBPIXEL_BITS, 0);
-    t->minY = max((top + round) >> RASTER_SUBPIXEL_BITS, 0);
-    t->maxX = min((right - half) >> RASTER_SUBPIXEL_BITS, view->width - 1);
-    t->maxY = min((bottom - half) >> RASTER_SUBPIXEL_BITS, view->height - 1);
+    const int midpoint = 1 << (RASTER_SUBPIXEL_BITS - 1), below = midpoint - 1;
+    t->minX = max((left + below) >> RASTER_SUBPIXEL_BITS, 0);
+    t->minY = max((top + below) >> RASTER_SUBPIXEL_BITS, 0);
+    t->maxX = min((right - midpoint) >> RASTER_SUBPIXEL_BITS, view->width - 1);
+    t->maxY = min((bottom - midpoint) >> RASTER_SUBPIXEL_BITS, view->height - 1);
     if (t->minX > t->maxX || t->minY > t->maxY) return 0;
     t->small = max(right - left, bottom - top) <= (RASTER_SMALL << RASTER_SUBPIXEL_BITS);
 

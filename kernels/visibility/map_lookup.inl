@@ -24,7 +24,7 @@ kernel void LOOKUP_KERNEL(const MultiViewParams params, const LookupParams looku
     const VF gradientX = V_LOAD(receiver, RECEIVER_GRADIENT_X * stride + pixel);
     const VF gradientY = V_LOAD(receiver, RECEIVER_GRADIENT_Y * stride + pixel);
     const VF facing = V_LOAD(receiver, RECEIVER_FACING * stride + pixel);
-    const VF constant = w * (lookup.constantTexels / params.focal + w * (lookup.constantMetres / params.near)) +
+    const VF margin = w * (lookup.constantTexels / params.focal + w * (lookup.constantMetres / params.near)) +
                         lookup.quantum;
     const int size = params.resolution, bilinear = lookup.pcf == 4;
     const int weight = bilinear ? 256 : lookup.pcf;
@@ -44,7 +44,7 @@ kernel void LOOKUP_KERNEL(const MultiViewParams params, const LookupParams looku
         const VF row0 = floor(clamp(v, (VF)-4.0f, (VF)(float)(size + 4)));
         const VF slope = (fabs(stepX) + fabs(stepY)) * (0.5f * lookup.slopeBias);
         const VF reference = w + stepX * (column0 + (0.5f - shift) - u) +
-                             stepY * (row0 + (0.5f - shift) - v) + slope + constant;
+                             stepY * (row0 + (0.5f - shift) - v) + slope + margin;
         const VI column = V_TO_INT(column0), row = V_TO_INT(row0);
 #define HIDES(dx, dy)                                                                              \
     LANES_JOIN(LOOKUP_KERNEL, _hides)(map, size, column + (dx), row + (dy),                        \

@@ -79,29 +79,29 @@ inline void storePoint(const MultiViewParams* p, uint slot, float3 point, global
 #define RASTER_BEGIN              \
     float3 kept[POINT_BUFFER];    \
     uint keptKeys[POINT_BUFFER];  \
-    uint count = 0, nearCount = 0;
+    uint pending = 0, nearCount = 0;
 #define POINTS_FLUSH                                                          \
     {                                                                         \
-        const uint slot = atomic_add(&counters->points, count);               \
-        for (uint i = 0; i < count; ++i)                                      \
+        const uint slot = atomic_add(&counters->points, pending);              \
+        for (uint i = 0; i < pending; ++i)                                      \
             if (slot + i < params.pointCapacity) {                            \
                 storePoint(&params, slot + i, kept[i], points32, points16);   \
                 if (params.alphaKeys) keys[slot + i] = keptKeys[i];           \
             }                                                                 \
-        count = 0;                                                            \
+        pending = 0;                                                           \
     }
 #define RASTER_TRIANGLE
 #define RASTER_FRAGMENT                                                                              \
     const float opacity = pointOpacity(&draw, materials, indices, uvs, colours, texels, triangle, v, \
                                        x, y);                                                        \
     if (opacity > 0.0f) {                                                                            \
-        kept[count] = pointOf(&params, x, y, depth);                                                 \
-        nearCount += kept[count].z > 1.0f;                                                           \
-        keptKeys[count] = opacityKey(opacity, drawIndex);                                            \
-        if (++count == POINT_BUFFER) POINTS_FLUSH                                                    \
+        kept[pending] = pointOf(&params, x, y, depth);                                                 \
+        nearCount += kept[pending].z > 1.0f;                                                           \
+        keptKeys[pending] = opacityKey(opacity, drawIndex);                                            \
+        if (++pending == POINT_BUFFER) POINTS_FLUSH                                                    \
     }
 #define RASTER_END                                              \
-    if (count) POINTS_FLUSH                                     \
+    if (pending) POINTS_FLUSH                                     \
     if (nearCount) atomic_add(&counters->nearPoints, nearCount);
 #include "lib/raster.inl"
 
