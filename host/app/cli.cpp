@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// The command line: arguments -> options. No algorithms.
+#include "host/app/cli.h"
+
+#include <CLI/CLI.hpp>
+
+#include "host/app/commands.h"
+#include "runtime/error.h"
+
+namespace penumbra::app {
+namespace {
+
+/// Arguments of all commands, filled by CLI11.
+struct Arguments {
+    RenderArguments render;
+    DiffArguments diff;
+    std::string size = "1280x720", scene, device;
+    std::vector<std::string> settings;
+    std::vector<double> eye, target;
+    double fov = 0;
+    bool json = false, verbose = false, noCache = false;
+};
+
+void parseSize(const std::string& text, RenderOptions& options) {
+    int width = 0, height = 0, used = 0;
+    const bool whole = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2 &&
+                       static_cast<std::size_t>(used) == text.size();
+    requireUsage(whole && width > 0 && height > 0, "--size '{}' is not WIDTHxHEIGHT in pixels", text);
+    options.width = width;
+    options.height = height;
+}
+
+void parseSettings(const std::vector<std::string>& texts, RenderOptions& options) {
+    for (const auto& text : texts) {
+        const auto equals = text.find('=');
+        const auto dot = text.find('.');
+        requireUsage(equals != std::string::npos && dot < equals,
+                     "--set '{}' is not technique.setting=value; see `penumbra techniques`", text);
+        const auto technique = text.substr(0, dot);
+        requireUsage(technique == options.technique, "--set '{}' is for {}, and --technique is {}", text, technique,
+                     options.technique);
+        options.settings[text.substr(0, equals)] = text.substr(equals + 1);
+    }
+}
+
+void addScene(CLI::App& command, Arguments& a) {
+    command.add_option("SCENE", a.scene, ".gltf or .glb; the built-in scene where none is named");
+}
+
+void addCamera(CLI::App& render, Arguments& a) {
+    auto& o = a.render.options;
+    render.add_option("--camera", o.camera, "name or index of a camera, or auto; default: the file's first, else auto");
+    render.add_option("--eye", a.eye, "camera position x,y,z in metres")->delimiter(',')->expected(3);
+    render.add_option("--target", a.target, "point the camera looks at, x,y,z")->delimiter(',')->expected(3);
+    render.add_option("--fov", a.fov, "vertical field of view, degrees");
+}
+
+void addLights(CLI::App& render, Arguments& a) {
+    auto& o = a.render.options;
+    render.add_option("--light", o.lights, "rect:at=0,4,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=20 (disk:, sphere: with radius=; fov=, near=, name=); replaces the file's lights; repeatable");
+    render.add_option("--light-samples", o.lightSamples, "samples of each light: N, or MxN for a grid")->capture_default_str();
+    render.add_option("--light-pattern", o.lightPattern, "hammersley, poisson, grid, jittered")->capture_default_str();
+    render.add_option("--seed", o.seed, "of the pattern: a number, or frame for another each frame")->capture_default_str();
+}
+
+void addOutput(CLI::App& render, Arguments& a) {
+    auto& r = a.render;
+    auto& o = r.options;
+    render.add_option("-o,--output", r.output, "file: .exr or .png; #### is the frame number")->required();
+    render.add_option("--frames", r.frames, "1,3,5..10 or 0..119 or all")->capture_default_str();
+    render.add_option("--fps", o.fps, "frames per second")->capture_default_str();
+    render.add_option("--size", a.size, "pixels")->capture_default_str();
+    render.add_option("--supersample", o.supersample, "samples along each side of a pixel, 1 to 8")->capture_default_str();
+    render.add_option("--exposure", o.exposure, "of PNG files: auto (white at the scene's centre is 0.8) or stops")->capture_default_str();
+    render.add_option("--aov", o.aovs, "extra channels of EXR files: all, visibility, depth, normal, position, albedo, id, depth-maps")->delimiter(',');
+    render.add_option("--temporal", o.temporal, "frames that visibility is averaged over")->capture_default_str();
+    render.add_flag("--resume", r.resume, "skip whole frames of the same fingerprint");
+    render.add_option("--stats", r.stats, "write measurements as JSON");
+}
+
+CLI::App* addRender(CLI::App& app, Arguments& a) {
+    auto& render = *app.add_subcommand("render", "Render frames");
+    auto& o = a.render.options;
+    addScene(render, a);
+    addOutput(render, a);
+    render.add_option("--technique", o.technique, "see `penumbra techniques`")->capture_default_str();
+    render.add_option("--set", a.settings, "technique.setting=value; repeatable");
+    addLights(render, a);
+    addCamera(render, a);
+    render.add_flag("--ground", o.ground, "put a floor under the scene");
+    render.add_option("--animation", o.animation, "name, index, or none; default: clip 0 and what moves other nodes");
+    render.add_option("--device", a.device, "cpu, gpu, an index, platform:device, or part of a name");
+    render.add_option("--memory", o.memoryMegabytes, "limit on device memory, MB");
+    render.add_flag("--no-cache", a.noCache, "compile kernels anew");
+    render.add_flag("-q,--quiet", a.render.quiet, "only errors on stderr");
+    render.add_flag("-v,--verbose", a.render.verbose, "more on stderr");
+    render.set_config("--config", "", "read options from a TOML file; the command line wins");
+    return &render;
+}
+
+CLI::App* addDiff(CLI::App& app, Arguments& a) {
+    auto& diff = *app.add_subcommand("diff", "Compare two images; exit code 5 beyond a limit");
+    diff.add_option("A", a.diff.a, ".exr or .png")->required();
+    diff.add_option("B", a.diff.b, ".exr or .png")->required();
+    diff.add_option("--layer", a.diff.layer, "RGB, visibility.<light>, Z, ...");
+    diff.add_option("--mask", a.diff.mask, "image; only pixels above 0.5 count");
+    diff.add_option("--fail-rmse", a.diff.failRmse, "largest root mean square difference");
+    diff.add_option("--fail-max", a.diff.failMax, "largest difference");
+    diff.add_option("--fail-psnr", a.diff.failPsnr, "least peak signal-to-noise ratio, dB");
+    diff.add_option("--fail-share", a.diff.failShares, "STEP=SHARE: largest share of pixels beyond STEP/255; steps 1, 4, 16");
+    diff.add_flag("--json", a.diff.json, "JSON on stdout");
+    return &diff;
+}
+
+int runRenderWith(Arguments& a, bool hasFov) {
+    auto& o = a.render.options;
+    o.scene = a.scene;
+    o.device = a.device;
+    o.cache = !a.noCache;
+    parseSize(a.size, o);
+    parseSettings(a.settings, o);
+    if (!a.eye.empty()) o.eye = a.eye;
+    if (!a.target.empty()) o.target = a.target;
+    if (hasFov) o.fovDegrees = a.fov;
+    return runRender(a.render);
+}
+
+}  // namespace
+
+int runCommandLine(int argc, char** argv) {
+    CLI::App app("penumbra: accurate soft shadows for animated glTF scenes, on any OpenCL device");
+    app.set_version_flag("--version", version());
+    app.require_subcommand(1);
+    Arguments a;
+    const auto* render = addRender(app, a);
+    const auto* diff = addDiff(app, a);
+    auto* info = app.add_subcommand("info", "What is in a scene, and what of it is used");
+    addScene(*info, a);
+    info->add_flag("--json", a.json, "JSON on stdout");
+    auto* devices = app.add_subcommand("devices", "Every OpenCL device, which one is chosen and why");
+    devices->add_option("--device", a.device, "as for render");
+    devices->add_flag("--json", a.json, "JSON on stdout");
+    devices->add_flag("-v,--verbose", a.verbose, "all that is known of each");
+    auto* techniques = app.add_subcommand("techniques", "Every technique and setting");
+    techniques->add_flag("--json", a.json, "JSON on stdout");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    }
+    if (render->parsed()) return runRenderWith(a, render->count("--fov") > 0);
+    if (diff->parsed()) return runDiff(a.diff);
+    if (info->parsed()) return runInfo(a.scene, a.json);
+    if (devices->parsed()) return runDevices(a.device, a.json, a.verbose);
+    return runTechniques(a.json);
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// One function per command: arguments are parsed already. Results go to stdout, all else to stderr.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/penumbra.h"
+
+namespace penumbra::app {
+
+struct RenderArguments {
+    RenderOptions options;
+    std::string output, frames = "0", stats;
+    bool resume = false, quiet = false, verbose = false;
+};
+
+struct DiffArguments {
+    std::string a, b, layer, mask;
+    std::optional<double> failRmse, failMax, failPsnr;
+    std::vector<std::string> failShares;  ///< "4=0.01"
+    bool json = false;
+};
+
+int runRender(const RenderArguments& arguments);
+int runDiff(const DiffArguments& arguments);
+int runDevices(const std::string& requested, bool json, bool verbose);
+int runTechniques(bool json);
+int runInfo(const std::string& scene, bool json);
+
+}  // namespace penumbra::app
