@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// The command as a user runs it: files, exit codes, messages.
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "host/image/image_file.h"
+#include "tests/support/fixtures.h"
+
+namespace penumbra::tests {
+namespace {
+
+struct Result {
+    int code = -1;
+    std::string output, errors;
+};
+
+std::string readFile(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Result run(const std::string& arguments) {
+    const std::string errors = temporaryFolder("command-errors") + "/stderr";
+    const std::string line = std::string(PENUMBRA_COMMAND) + " " + arguments + " 2>" + errors;
+    Result result;
+    std::FILE* pipe = popen(line.c_str(), "r");
+    char text[4096];
+    while (std::fgets(text, sizeof text, pipe)) result.output += text;
+    const int status = pclose(pipe);
+    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    result.errors = readFile(errors);
+    return result;
+}
+
+const std::string kSmall = "render --size 64x36 --light-samples 4 --set vwss.resolution=128 -q ";
+
+TEST(CommandTest, ASequenceIsWrittenAndTheSameBytesTwice) {
+    const auto folder = temporaryFolder("sequence");
+    ASSERT_EQ(run(kSmall + "--frames 0..2 --aov all -o " + folder + "/a_####.exr").code, 0);
+    ASSERT_EQ(run(kSmall + "--frames 0..2 --aov all -o " + folder + "/b_####.exr").code, 0);
+    for (const char* frame : {"0000", "0001", "0002"})
+        EXPECT_EQ(readFile(folder + "/a_" + frame + ".exr"), readFile(folder + "/b_" + frame + ".exr"));
+    EXPECT_NE(readFile(folder + "/a_0000.exr"), readFile(folder + "/a_0002.exr"));
+}
+
+TEST(CommandTest, AFrameDoesNotDependOnWhichOthersWereAskedFor) {
+    const auto folder = temporaryFolder("alone");
+    for (const char* extra : {"", "--temporal 3 --seed frame "}) {
+        ASSERT_EQ(run(kSmall + extra + "--frames 4..6 -o " + folder + "/a_#.exr").code, 0);
+        ASSERT_EQ(run(kSmall + extra + "--frames 6 -o " + folder + "/b_#.exr").code, 0);
+        EXPECT_EQ(readFile(folder + "/a_6.exr"), readFile(folder + "/b_6.exr")) << extra;
+    }
+}
+
+TEST(CommandTest, ResumeSkipsWholeFramesAndRendersTheRest) {
+    const auto folder = temporaryFolder("resume");
+    const auto command = kSmall + "--resume -o " + folder + "/f_#.png --frames ";
+    ASSERT_EQ(run(command + "0..2").code, 0);
+    const auto whole = readFile(folder + "/f_1.png");
+    std::filesystem::resize_file(folder + "/f_1.png", whole.size() / 2);
+    std::filesystem::remove(folder + "/f_2.png");
+    const auto first = std::filesystem::last_write_time(folder + "/f_0.png");
+    ASSERT_EQ(run(command + "0..2").code, 0);
+    EXPECT_EQ(readFile(folder + "/f_1.png"), whole);
+    EXPECT_TRUE(std::filesystem::exists(folder + "/f_2.png"));
+    EXPECT_EQ(std::filesystem::last_write_time(folder + "/f_0.png"), first);
+    // Other settings have another fingerprint
+    ASSERT_EQ(run(command + "0 --set vwss.pcf=1").code, 0);
+    EXPECT_NE(std::filesystem::last_write_time(folder + "/f_0.png"), first);
+}
+
+TEST(CommandTest, StatsTellStagesProgramsAndMemory) {
+    const auto folder = temporaryFolder("stats");
+    ASSERT_EQ(run(kSmall + "-o " + folder + "/a.png --stats " + folder + "/s.json").code, 0);
+    const auto stats = nlohmann::json::parse(readFile(folder + "/s.json"));
+    EXPECT_EQ(stats["schema"], 1);
+    EXPECT_GT(stats["memory"]["peak"].get<double>(), 1e5);
+    const auto& frame = stats["frames"].at(0);
+    EXPECT_GT(frame["points"].get<int>(), 100);
+    double points = 0;
+    for (const auto& stage : frame["stages"])
+        if (stage["name"] == "points") points = stage["deviceMs"].get<double>();
+    EXPECT_GT(points, 0);
+}
+
+TEST(CommandTest, DiffComparesAndFailsBeyondItsLimits) {
+    const auto folder = temporaryFolder("diff");
+    ASSERT_EQ(run(kSmall + "--aov visibility -o " + folder + "/a.exr").code, 0);
+    ASSERT_EQ(run(kSmall + "--aov visibility --set vwss.pcf=9 -o " + folder + "/b.exr").code, 0);
+    const std::string files = folder + "/a.exr " + folder + "/b.exr ";
+    const auto result = run("diff --json " + files);
+    EXPECT_EQ(result.code, 0);
+    const auto json = nlohmann::json::parse(result.output);
+    EXPECT_EQ(json["layer"], "visibility.key");
+    EXPECT_GT(json["rmse"].get<double>(), 0);
+    EXPECT_EQ(run("diff " + files + "--fail-rmse 1e-9").code, 5);
+    EXPECT_EQ(run("diff " + files + "--fail-share 1=0").code, 5);
+    EXPECT_EQ(run("diff " + files + "--fail-share 3=0").code, 2);
+    EXPECT_EQ(run("diff " + folder + "/a.exr " + folder + "/a.exr --fail-max 0").code, 0);
+    EXPECT_EQ(run("diff " + folder + "/a.exr " + folder + "/absent.exr").code, 1);
+}
+
+TEST(CommandTest, ConfigurationFilesHoldOptionsAndTheCommandLineWins) {
+    const auto folder = temporaryFolder("config");
+    std::ofstream(folder + "/c.toml") << "size = \"48x32\"\nlight-samples = \"2\"\nset = [\"vwss.resolution=64\"]\n";
+    ASSERT_EQ(run("render -q --config " + folder + "/c.toml -o " + folder + "/a.exr").code, 0);
+    EXPECT_EQ(image::readImage(folder + "/a.exr").width, 48);
+    ASSERT_EQ(run("render -q --config " + folder + "/c.toml --size 32x16 -o " + folder + "/b.exr").code, 0);
+    EXPECT_EQ(image::readImage(folder + "/b.exr").width, 32);
+}
+
+TEST(CommandTest, ListsAreJsonOnRequest) {
+    EXPECT_FALSE(nlohmann::json::parse(run("devices --json").output)["devices"].empty());
+    EXPECT_EQ(nlohmann::json::parse(run("techniques --json").output)["techniques"][0]["name"], "vwss");
+    EXPECT_GT(nlohmann::json::parse(run("info --json").output)["trianglesDrawn"].get<int>(), 50000);
+    EXPECT_EQ(run("info").code, 0);
+    EXPECT_EQ(run("techniques").code, 0);
+    EXPECT_EQ(run("devices -v").code, 0);
+}
+
+struct BadUse {
+    const char* arguments;
+    int code;
+    const char* part;
+};
+
+class CommandErrorTest : public testing::TestWithParam<BadUse> {};
+
+TEST_P(CommandErrorTest, EndsWithOneLineAndItsExitCode) {
+    const auto& bad = GetParam();
+    const auto result = run(bad.arguments);
+    EXPECT_EQ(result.code, bad.code) << result.errors;
+    EXPECT_NE(result.errors.find(bad.part), std::string::npos) << result.errors;
+    EXPECT_EQ(result.output, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CommandErrorTest,
+    testing::Values(BadUse{"", 2, "subcommand"}, BadUse{"render", 2, "--output"},
+                    BadUse{"render -o /tmp/a.jpg", 2, ".exr nor .png"},
+                    BadUse{"render -o /tmp/penumbra_test.png --frames 0..3", 2, "####"},
+                    BadUse{"render -o /tmp/penumbra_test.png --frames 3..1", 2, "backwards"},
+                    BadUse{"render absent.glb -o /tmp/penumbra_test.png", 1, "absent.glb"},
+                    BadUse{"render -o /tmp/penumbra_test.png --technique magic", 2, "allowed: vwss"},
+                    BadUse{"render -o /tmp/penumbra_test.png --set vwss.pcf=7", 2, "1, 5, 9, bilinear"},
+                    BadUse{"render -o /tmp/penumbra_test.png --set vwss.resolution=9", 2, "64 to 8192"},
+                    BadUse{"render -o /tmp/penumbra_test.png --set vwss.colour=9", 2, "no setting 'colour'"},
+                    BadUse{"render -o /tmp/penumbra_test.png --light-samples 5000", 2, "4096"},
+                    BadUse{"render -o /tmp/penumbra_test.png --light-samples 0", 2, "allowed: N or MxN"},
+                    BadUse{"render -o /tmp/penumbra_test.png --light cone:", 2, "allowed: rect:"},
+                    BadUse{"render -o /tmp/penumbra_test.png --light 'rect:size=1'", 2, "WxH"},
+                    BadUse{"render -o /tmp/penumbra_test.png --size 0x5", 2, "--size"},
+                    BadUse{"render -o /tmp/penumbra_test.png --aov depth", 2, "EXR"},
+                    BadUse{"render -o /tmp/penumbra_test.exr --aov colour", 2, "allowed: all"},
+                    BadUse{"render -o /tmp/penumbra_test.png --camera absent", 2, "allowed: auto"},
+                    BadUse{"render -o /tmp/penumbra_test.png --device absent", 3, "no OpenCL device matches"},
+                    BadUse{"render -o /tmp/penumbra_test.png --memory 20", 4, "out of memory"},
+                    BadUse{"render -o /proc/penumbra/a.png", 1, "cannot be made"}));
+
+}  // namespace
+}  // namespace penumbra::tests

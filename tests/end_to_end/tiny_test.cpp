@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Every kernel on inputs small enough for Oclgrind (tools/check_oclgrind runs the suites named Tiny*).
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "host/pipeline.h"
+#include "runtime/scan.h"
+#include "runtime/self_test.h"
+#include "runtime/sort.h"
+#include "tests/support/fixtures.h"
+
+namespace penumbra::tests {
+namespace {
+
+/// A box over a floor with every kind of material: plain, masked by a texture, blended, normal-mapped.
+scene::Scene tinyScene() {
+    SceneBuilder builder;
+    builder.addQuad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, false);
+    const int box = builder.addBox({-0.5F, 0.2F, -0.5F}, {0.5F, 0.8F, 0.5F});
+    const int leaf = builder.addQuad({-1, 1, 0.5F}, {0.7F, 0, 0}, {0, 0, -0.7F});
+    const int glass = builder.addQuad({0.4F, 1, 0.5F}, {0.7F, 0, 0}, {0, 0.1F, -0.7F});
+    auto& scene = builder.scene();
+    scene::Image checker;
+    checker.width = checker.height = 4;
+    for (int i = 0; i < 16; ++i)
+        for (int c = 0; c < 4; ++c)
+            checker.texels.push_back(static_cast<std::uint8_t>((i + i / 4) % 2 ? 255 : 100));
+    scene.images.push_back(checker);
+    for (int kind = 1; kind <= 3; ++kind) {
+        auto material = scene.materials[0];
+        material.baseColorTexture.image = 0;
+        if (kind == 1) material.alphaMode = scene::AlphaMode::mask;
+        if (kind == 2) material.alphaMode = scene::AlphaMode::blend;
+        if (kind == 3) material.normalTexture.image = material.metallicRoughnessTexture.image = 0;
+        scene.materials.push_back(material);
+    }
+    const std::pair<int, int> uses[] = {{leaf, 1}, {glass, 2}, {box, 3}};
+    for (const auto& [node, material] : uses) {
+        auto& p = scene.meshes[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(node)].mesh)].primitives[0];
+        p.material = material;
+        for (const auto& position : p.positions) p.uvs[0].emplace_back(position.x * 3, position.z * 3 + position.y);
+    }
+    scene::Light light;
+    light.name = "key";
+    light.width = light.height = 0.5;
+    light.worldFromLight = scene::lookAt({1, 4, 1}, {0, 0.5, 0}, {0, 1, 0});
+    scene.lights.push_back(light);
+    return scene;
+}
+
+RenderOptions tinyOptions() {
+    RenderOptions options;
+    options.width = 20;
+    options.height = 12;
+    options.lightSamples = "3";
+    options.eye = {{2.5, 2.5, 3.5}};
+    options.target = {{0, 0.5, 0}};
+    options.settings["vwss.resolution"] = "64";
+    return options;
+}
+
+Frame renderTiny(const std::map<std::string, std::string>& settings) {
+    auto options = tinyOptions();
+    for (const auto& [key, value] : settings) options.settings[key] = value;
+    options.aovs = {"visibility", "depth-maps"};
+    return Pipeline(options, tinyScene()).render(0);
+}
+
+class TinyVwssTest : public testing::TestWithParam<std::map<std::string, std::string>> {};
+
+TEST_P(TinyVwssTest, RendersLightAndShadow) {
+    const Frame frame = renderTiny(GetParam());
+    const auto& visibility = frame.channels.at(0).values;
+    EXPECT_EQ(*std::max_element(visibility.begin(), visibility.end()), 1.0F);
+    EXPECT_EQ(*std::min_element(visibility.begin(), visibility.end()), 0.0F);
+    for (const float value : frame.rgba) EXPECT_TRUE(std::isfinite(value));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Variants, TinyVwssTest,
+    testing::Values(std::map<std::string, std::string>{{"vwss.parallelism", "owned"}},
+                    std::map<std::string, std::string>{{"vwss.parallelism", "owned"}, {"vwss.depthBits", "16"}, {"vwss.pcf", "9"}},
+                    std::map<std::string, std::string>{{"vwss.parallelism", "full"}, {"vwss.depthBits", "16"}, {"vwss.pcf", "1"}},
+                    std::map<std::string, std::string>{{"vwss.parallelism", "partial"}, {"vwss.viewsPerPass", "2"}, {"vwss.precision", "half"}},
+                    std::map<std::string, std::string>{{"vwss.parallelism", "serial"}, {"vwss.precision", "fixed"}, {"vwss.pcf", "bilinear"}},
+                    std::map<std::string, std::string>{{"vwss.buffered", "false"}, {"vwss.viewsPerBatch", "2"}},
+                    std::map<std::string, std::string>{{"vwss.halfResolution", "true"}}));
+
+TEST(TinyVwssVariantsTest, AllVariantsMakeTheSameMapsAndVisibility) {
+    const Frame reference = renderTiny({{"vwss.parallelism", "owned"}});
+    const std::map<std::string, std::string> variants[] = {
+        {{"vwss.parallelism", "full"}},
+        {{"vwss.parallelism", "serial"}},
+        {{"vwss.parallelism", "partial"}, {"vwss.viewsPerPass", "2"}, {"vwss.viewsPerBatch", "2"}},
+        {{"vwss.buffered", "false"}}};
+    for (const auto& variant : variants) {
+        const Frame frame = renderTiny(variant);
+        ASSERT_EQ(frame.depthMaps.size(), 3U);
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(frame.depthMaps[i].values, reference.depthMaps[i].values);
+        EXPECT_EQ(frame.channels[0].values, reference.channels[0].values);
+    }
+}
+
+TEST(TinyTemporalTest, AveragesAStillSceneToItself) {
+    auto options = tinyOptions();
+    options.aovs = {"visibility"};
+    const Frame once = Pipeline(options, tinyScene()).render(0);
+    options.temporal = 3;
+    Pipeline averaged(options, tinyScene());
+    EXPECT_EQ(averaged.render(0).channels[0].values, once.channels[0].values);
+    EXPECT_EQ(averaged.render(1).channels[0].values, once.channels[0].values);
+}
+
+TEST(TinyRuntimeTest, ScanSortAndSelfTestRun) {
+    runtime::selfTest(program("frame"));
+    runtime::Buffer<std::uint32_t> keys(device(), "keys", std::vector<std::uint32_t>{5, 1, 5, 0}),
+        values(device(), "values", std::vector<std::uint32_t>{0, 1, 2, 3}), total(device(), "total", 1);
+    runtime::Sort(program("frame")).run(keys, values, 4, 8);
+    EXPECT_EQ(values.download(), (std::vector<std::uint32_t>{3, 1, 0, 2}));
+    runtime::Scan(program("frame")).run(keys, 4, total);
+    EXPECT_EQ(total.download()[0], 11U);
+}
+
+TEST(TinyGBufferTest, BothRasterPathsAgree) {
+    const auto scene = tinyScene();
+    const auto pose = scene::poseAt(scene, {}, 0);
+    geometry::Geometry geometry(program("frame"), scene, {0, 0, 0});
+    const auto& mesh = geometry.run(pose);
+    scene::CameraFrame camera;
+    camera.worldFromCamera = scene::lookAt({2.5, 2.5, 3.5}, {0, 0.5, 0}, {0, 1, 0});
+    gbuffer::GBufferPass narrow(program("frame"), 20, 12, false), wide(program("frame"), 20, 12, true);
+    EXPECT_FALSE(narrow.usesAtomics64());
+    const auto a = narrow.run(mesh, camera, {0, 0, 0}).planes.download();
+    const auto b = wide.run(mesh, camera, {0, 0, 0}).planes.download();
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(float)), 0);
+    EXPECT_EQ(geometry.counts().nonFiniteVertices, 0U);
+}
+
+}  // namespace
+}  // namespace penumbra::tests
