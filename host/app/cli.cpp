@@ -3,6 +3,8 @@
 #include "host/app/cli.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fstream>
 
 #include "host/app/commands.h"
 #include "runtime/error.h"
@@ -14,7 +16,7 @@ namespace {
 struct Arguments {
     RenderArguments render;
     DiffArguments diff;
-    std::string size = "1280x720", scene, device;
+    std::string size = "1280x720", scene, device, config;
     std::vector<std::string> settings;
     std::vector<double> eye, target;
     double fov = 0;
@@ -94,7 +96,7 @@ CLI::App* addRender(CLI::App& app, Arguments& a) {
     render.add_flag("--no-cache", a.noCache, "compile kernels anew");
     render.add_flag("-q,--quiet", a.render.quiet, "only errors on stderr");
     render.add_flag("-v,--verbose", a.render.verbose, "more on stderr");
-    render.set_config("--config", "", "read options from a TOML file; the command line wins");
+    render.add_option("--config", a.config, "read options from a TOML file; the command line wins");
     return &render;
 }
 
@@ -110,6 +112,51 @@ CLI::App* addDiff(CLI::App& app, Arguments& a) {
     diff.add_option("--fail-share", a.diff.failShares, "STEP=SHARE: largest share of pixels beyond STEP/255; steps 1, 4, 16");
     diff.add_flag("--json", a.diff.json, "JSON on stdout");
     return &diff;
+}
+
+bool isGiven(const CLI::Option& option, const std::vector<std::string>& arguments) {
+    for (const auto& name : option.get_lnames())
+        for (const auto& argument : arguments)
+            if (argument == "--" + name || argument.rfind("--" + name + "=", 0) == 0) return true;
+    for (const auto& name : option.get_snames())
+        for (const auto& argument : arguments)
+            if (argument.rfind("-" + name, 0) == 0 && argument.rfind("--", 0) != 0) return true;
+    return false;
+}
+
+std::string configPath(const std::vector<std::string>& arguments) {
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        if (arguments[i] == "--config" && i + 1 < arguments.size()) return arguments[i + 1];
+        if (arguments[i].rfind("--config=", 0) == 0) return arguments[i].substr(9);
+    }
+    return "";
+}
+
+/// Arguments with those of the --config file added that the command line does not give. CLI11's own
+/// configuration works for the whole program, not for one of its commands.
+std::vector<std::string> withConfig(const std::vector<std::string>& arguments, const CLI::App& render) {
+    const std::string path = configPath(arguments);
+    if (path.empty()) return arguments;
+    std::ifstream file(path);
+    require(static_cast<bool>(file), "--config {}: cannot be read", path);
+    auto all = arguments;
+    for (const auto& item : CLI::ConfigTOML().from_config(file)) {
+        const auto* option = render.get_option_no_throw("--" + item.name);
+        requireUsage(option != nullptr && item.parents.empty() && item.name != "config",
+                     "--config {}: '{}' is not an option of render; see penumbra render --help", path, item.fullname());
+        if (isGiven(*option, arguments)) continue;
+        if (option->get_expected_min() == 0) {
+            requireUsage(item.inputs == std::vector<std::string>{"true"} || item.inputs == std::vector<std::string>{"false"},
+                         "--config {}: {} is not true or false", path, item.name);
+            if (item.inputs[0] == "true") all.push_back("--" + item.name);
+            continue;
+        }
+        if (option->get_delimiter() != '\0')
+            all.push_back(fmt::format("--{}={}", item.name, fmt::join(item.inputs, ",")));
+        else
+            for (const auto& input : item.inputs) all.push_back("--" + item.name + "=" + input);
+    }
+    return all;
 }
 
 int runRenderWith(Arguments& a, bool hasFov) {
@@ -143,8 +190,11 @@ int runCommandLine(int argc, char** argv) {
     devices->add_flag("-v,--verbose", a.verbose, "all that is known of each");
     auto* techniques = app.add_subcommand("techniques", "Every technique and setting");
     techniques->add_flag("--json", a.json, "JSON on stdout");
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (!arguments.empty() && arguments[0] == "render") arguments = withConfig(arguments, *render);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
     try {
-        app.parse(argc, argv);
+        app.parse(arguments);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
     }

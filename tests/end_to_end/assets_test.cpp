@@ -25,10 +25,10 @@ TEST_P(AssetFrameTest, RendersWithShadows) {
     options.aovs = {"visibility", "id"};
     Pipeline pipeline(options);
     const Frame frame = pipeline.render(10);
-    const auto& ids = frame.channels.back().ids;
+    const auto& ids = frame.channels.at(0).ids;
     const auto ground = *std::max_element(ids.begin(), ids.end());  // the last node
     EXPECT_GT(std::count_if(ids.begin(), ids.end(), [&](auto id) { return id != 0 && id != ground; }), 50);
-    const auto& visibility = frame.channels[0].values;
+    const auto& visibility = frame.channels.at(1).values;
     std::size_t shadowed = 0;
     for (std::size_t i = 0; i < ids.size(); ++i) shadowed += ids[i] == ground && visibility[i] < 0.5F ? 1 : 0;
     EXPECT_GT(shadowed, 20U) << "no shadow on the ground";

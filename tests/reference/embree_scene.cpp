@@ -7,8 +7,8 @@
 
 namespace penumbra::tests {
 
-EmbreeScene::EmbreeScene(const scene::Scene& scene, const scene::Pose& pose, const glm::dvec3& centre,
-                         bool castersOnly) {
+EmbreeScene::EmbreeScene(const scene::Scene& scene, const scene::Pose& pose,
+                         const glm::dvec3& centre, bool castersOnly) {
     for (const auto& triangle : posedTriangles(scene, pose))
         if (!castersOnly || scene.nodes[static_cast<std::size_t>(triangle.node)].castShadow)
             triangles_.push_back(triangle);

@@ -43,9 +43,10 @@ PosedVertices poseReference(const scene::Scene& scene, const scene::Pose& pose, 
         const glm::dvec3 n = displaced(primitive.normals[i], primitive.targets,
                                        &scene::MorphTarget::normals, weights, i);
         const bool skinned = skin >= 0 && !primitive.joints.empty();
-        const glm::dmat4 m = skinned ? skinMatrix(scene, pose, scene.skins[static_cast<std::size_t>(skin)],
-                                                  primitive, i)
-                                     : pose.worldFromNode[index];
+        const glm::dmat4 m =
+            skinned
+                ? skinMatrix(scene, pose, scene.skins[static_cast<std::size_t>(skin)], primitive, i)
+                : pose.worldFromNode[index];
         posed.positions.emplace_back(m * glm::dvec4(p, 1));
         posed.normals.push_back(glm::normalize(glm::transpose(glm::inverse(glm::dmat3(m))) * n));
     }

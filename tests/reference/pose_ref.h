@@ -13,8 +13,9 @@ struct PosedVertices {
     std::vector<glm::dvec3> positions, normals;  ///< world; unit normals
 };
 
-/// Vertices of a primitive of a node. Morph targets add weighted displacements (3.7.2.2); skins move by
-/// the weighted sum of joint matrices, without the node's own (3.7.3.3); normals by the inverse transpose.
+/// Vertices of a primitive of a node. Morph targets add weighted displacements (3.7.2.2); skins
+/// move by the weighted sum of joint matrices, without the node's own (3.7.3.3); normals by the
+/// inverse transpose.
 PosedVertices poseReference(const scene::Scene& scene, const scene::Pose& pose, int node,
                             const scene::Primitive& primitive);
 

@@ -14,9 +14,9 @@ namespace {
 
 constexpr float kOriginOffset = 4e-6F;
 
-void enqueue(const ShadowSetup& setup, const geometry::Mesh& mesh,
-             const scene::CameraFrame& camera, gbuffer::GBufferPass& pass,
-             visibility::Technique& technique, visibility::Visibility& visibility, ShadowRun& run) {
+void enqueue(const ShadowSetup& setup, const geometry::Mesh& mesh, const scene::CameraFrame& camera,
+             gbuffer::GBufferPass& pass, visibility::Technique& technique,
+             visibility::Visibility& visibility, ShadowRun& run) {
     const auto& gbuffer = pass.run(mesh, camera, run.bounds.centre());
     technique.prepare(mesh);
     technique.run({mesh, gbuffer, run.light, run.bounds, run.bounds.centre(),
@@ -76,8 +76,8 @@ ShadowRun runShadows(const scene::Scene& original, const ShadowSetup& setup) {
                                         static_cast<double>(setup.width) / setup.height);
     geometry::Geometry geometry(program("frame"), scene, run.bounds.centre());
     gbuffer::GBufferPass pass(program("frame"), setup.width, setup.height);
-    const auto technique =
-        visibility::findTechnique("vwss").make({device(), setup.settings, setup.width, setup.height});
+    const auto technique = visibility::findTechnique("vwss").make(
+        {device(), setup.settings, setup.width, setup.height});
     const auto stride = static_cast<std::uint64_t>(pass.result().planeStride);
     visibility::Visibility visibility;
     visibility.planes = runtime::Buffer<float>(device(), "visibility", stride);

@@ -15,11 +15,11 @@
 namespace penumbra::tests {
 
 struct ShadowSetup {
-    SettingValues settings;           ///< "vwss.resolution" -> "256"
-    std::string samples = "64";       ///< as --light-samples
-    std::string light;                ///< as --light; empty: the scene's first
+    SettingValues settings;      ///< "vwss.resolution" -> "256"
+    std::string samples = "64";  ///< as --light-samples
+    std::string light;           ///< as --light; empty: the scene's first
     glm::dvec3 eye{0, 3, 6}, target{0};
-    bool placedCamera = true;         ///< false: the scene's own camera
+    bool placedCamera = true;  ///< false: the scene's own camera
     double fovDegrees = 40;
     int width = 160, height = 120;
     double seconds = 0;
