@@ -184,6 +184,9 @@ void Pipeline::makePasses() {
     gbuffer_ = std::make_unique<gbuffer::GBufferPass>(*program_, width_, height_);
     technique_ = visibility::findTechnique(options_.technique)
                      .make({*device_, options_.settings, width_, height_});
+    if (geometry_->mesh().hasBlend)
+        warnOnce("blended and transmissive surfaces are seen as opaque where their alpha is above 0.5, and block "
+                 "a share of the light samples by their opacity");
     shade_ = std::make_unique<shading::Shade>(*program_, width_, height_);
     temporal_ = std::make_unique<shading::Temporal>(*program_, width_, height_, options_.temporal);
     const auto pixels = static_cast<std::uint64_t>((width_ * height_ + GB_PAD - 1) / GB_PAD * GB_PAD);

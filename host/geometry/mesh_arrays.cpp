@@ -82,7 +82,7 @@ std::uint32_t drawFlags(const scene::Scene& scene, const scene::Node& node, cons
     if (!material.doubleSided) flags |= DRAW_SINGLE_SIDED;
     if (closed) flags |= DRAW_CLOSED;
     if (material.alphaMode == scene::AlphaMode::mask) flags |= DRAW_MASK;
-    if (material.alphaMode == scene::AlphaMode::blend) flags |= DRAW_BLEND;
+    if (material.alphaMode == scene::AlphaMode::blend || material.transmission > 0) flags |= DRAW_BLEND;
     if (material.unlit) flags |= DRAW_UNLIT;
     if (!p.colors.empty()) flags |= DRAW_COLOURS;
     return flags;

@@ -37,7 +37,8 @@ CameraFrame placedCamera(const CameraChoice& choice, const Bounds& bounds, doubl
     return camera;
 }
 
-CameraFrame fileCamera(const Camera& camera, const Pose& pose, const CameraChoice& choice) {
+CameraFrame fileCamera(const Camera& camera, const Pose& pose, const CameraChoice& choice,
+                       const Bounds& bounds) {
     CameraFrame frame;
     frame.worldFromCamera = withoutScale(pose.worldFromNode[static_cast<std::size_t>(camera.node)]);
     frame.orthographic = camera.orthographic;
@@ -46,6 +47,12 @@ CameraFrame fileCamera(const Camera& camera, const Pose& pose, const CameraChoic
     frame.ymag = camera.ymag;
     frame.nearMetres = camera.znear;
     frame.farMetres = camera.zfar;
+    if (frame.orthographic && !bounds.empty) {
+        // Nothing is cut at zfar: depth must not fall below 0 before the scene and its ground end
+        const glm::dvec3 eye(frame.worldFromCamera[3]), backwards(frame.worldFromCamera[2]);
+        const double middle = glm::dot(eye - bounds.centre(), backwards);
+        frame.farMetres = std::max(frame.farMetres, frame.nearMetres + std::abs(middle) + 8 * bounds.radius());
+    }
     return frame;
 }
 
@@ -98,9 +105,9 @@ CameraFrame cameraAt(const Scene& scene, const Pose& pose, const CameraChoice& c
         const Camera* camera = findCamera(scene, choice.name);
         requireUsage(camera != nullptr, "--camera '{}' is not in the scene; allowed: {}", choice.name,
                      cameraNames(scene));
-        return fileCamera(*camera, pose, choice);
+        return fileCamera(*camera, pose, choice, bounds);
     }
-    if (choice.name.empty() && !scene.cameras.empty()) return fileCamera(scene.cameras[0], pose, choice);
+    if (choice.name.empty() && !scene.cameras.empty()) return fileCamera(scene.cameras[0], pose, choice, bounds);
     return placedCamera(choice, bounds, aspect);
 }
 

@@ -26,12 +26,22 @@ MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings,
       receivers_(program, "receivers"),
       lookup32_(program, "map_lookup"),
       lookup16_(program, "map_lookup16"),
-      average_(program, "map_average") {
+      average_(program, "map_average"),
+      upsample_(program, "map_upsample") {
     requireUsage(settings.depthBits == 16 || settings.depthBits == 32,
                  "depthBits = {} is neither 16 nor 32", settings.depthBits);
-    const auto pixels = static_cast<std::uint64_t>(stride_);
-    receiver_ = Buffer<float>(device, "receivers", runtime::Shape{1, RECEIVER_PLANES, pixels});
-    hidden_ = Buffer<std::uint32_t>(device, "hidden tests", pixels);
+    const int step = settings.halfResolution ? 2 : 1;
+    image_.width = width;
+    image_.height = height;
+    image_.planeStride = stride_;
+    image_.pixelStep = step;
+    image_.receiverWidth = (width + step - 1) / step;
+    const int receivers = image_.receiverWidth * ((height + step - 1) / step);
+    image_.receiverStride = (receivers + GB_PAD - 1) / GB_PAD * GB_PAD;
+    image_.originOffset = kOriginOffset;
+    const auto slots = static_cast<std::uint64_t>(image_.receiverStride);
+    receiver_ = Buffer<float>(device, "receivers", runtime::Shape{1, RECEIVER_PLANES, slots});
+    hidden_ = Buffer<std::uint32_t>(device, "hidden tests", slots);
     maps32_ = Buffer<std::uint32_t>(device, "depth maps", 1);
     maps16_ = Buffer<std::uint16_t>(device, "depth maps", 1);
 }
@@ -95,15 +105,10 @@ void MultiView::run(const Inputs& inputs, double density, MapSource& source, Vis
     auto& profiler = device_->profiler();
     source.begin(inputs, view, light.samples, light.counters);
     profiler.beginStage("lighting");
-    shared::ReceiverParams image{};
-    image.width = width_;
-    image.height = height_;
-    image.planeStride = stride_;
-    image.pixelStep = 1;
-    image.originOffset = kOriginOffset;
-    image.worldMagnitude = static_cast<float>(inputs.casters.empty ? 0 : inputs.casters.radius());
+    image_.worldMagnitude = static_cast<float>(inputs.casters.empty ? 0 : inputs.casters.radius());
+    if (image_.pixelStep > 1) receiver_.fill(0);
     const auto pixels = static_cast<std::uint64_t>(stride_);
-    receivers_.launch({pixels}, {64}, image, view.params, inputs.gbuffer.planes, receiver_,
+    receivers_.launch({pixels}, {64}, image_, view.params, inputs.gbuffer.planes, receiver_,
                       visibility.state, hidden_, light.counters);
 
     const bool wide = source.needsWideMaps();
@@ -118,8 +123,17 @@ void MultiView::run(const Inputs& inputs, double density, MapSource& source, Vis
         lookup(view, maps, light);
         if (inputs.depthMaps) keepMaps(view, maps, *inputs.depthMaps);
     }
-    average_.launch({pixels}, {64}, stride_, view.params.views, tapWeight(), visibility.state, hidden_,
-                    visibility.planes);
+    average(view, inputs.gbuffer, visibility);
+}
+
+void MultiView::average(const LightView& view, const GBuffer& gbuffer, Visibility& visibility) {
+    const runtime::Range pixels{static_cast<std::uint64_t>(stride_)};
+    if (image_.pixelStep > 1)
+        upsample_.launch(pixels, {64}, image_, view.params.views, tapWeight(), gbuffer.planes,
+                         visibility.state, hidden_, visibility.planes);
+    else
+        average_.launch(pixels, {64}, stride_, view.params.views, tapWeight(), visibility.state, hidden_,
+                        visibility.planes);
     visibility.channels = 1;
 }
 
@@ -133,12 +147,12 @@ void MultiView::lookup(const LightView& view, const MapBatch& batch, PerLight& l
     params.constantTexels = settings_.constantBias;
     params.constantMetres = settings_.bias;
     params.quantum = settings_.depthBits == 16 ? 1.0F / 65535 : 0;
-    const auto items = static_cast<std::uint64_t>(stride_ / device_->info().lanes);
+    const auto items = static_cast<std::uint64_t>(image_.receiverStride / device_->info().lanes);
     if (batch.maps16)
-        lookup16_.launch({items}, {64}, view.params, params, stride_, receiver_, light.samples,
+        lookup16_.launch({items}, {64}, view.params, params, image_.receiverStride, receiver_, light.samples,
                          *batch.maps16, hidden_);
     else
-        lookup32_.launch({items}, {64}, view.params, params, stride_, receiver_, light.samples,
+        lookup32_.launch({items}, {64}, view.params, params, image_.receiverStride, receiver_, light.samples,
                          *batch.maps32, hidden_);
 }
 

@@ -52,12 +52,14 @@ class MultiView {
     int batchSize(const LightView& view, bool wide) const;
     void allocateMaps(const LightView& view, int batch, bool wide);
     void lookup(const LightView& view, const MapBatch& batch, PerLight& light);
+    void average(const LightView& view, const GBuffer& gbuffer, Visibility& visibility);
     void keepMaps(const LightView& view, const MapBatch& batch, DepthMaps& out);
     int tapWeight() const;
 
     runtime::Device* device_;
     MultiViewSettings settings_;
     int width_, height_, stride_;
+    shared::ReceiverParams image_{};
     template <typename Texel>
     using Lookup = runtime::Kernel<shared::MultiViewParams, shared::LookupParams, int, Buffer<float>,
                                    Buffer<float>, Buffer<Texel>, Buffer<std::uint32_t>>;
@@ -67,6 +69,9 @@ class MultiView {
     Lookup<std::uint32_t> lookup32_;
     Lookup<std::uint16_t> lookup16_;
     runtime::Kernel<int, int, int, Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<float>> average_;
+    runtime::Kernel<shared::ReceiverParams, int, int, Buffer<float>, Buffer<std::uint32_t>,
+                    Buffer<std::uint32_t>, Buffer<float>>
+        upsample_;
     Buffer<float> receiver_;
     Buffer<std::uint32_t> hidden_;
     Buffer<std::uint32_t> maps32_;

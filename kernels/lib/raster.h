@@ -153,8 +153,9 @@ inline int rasterSetup(const RasterView* view, uint flags, RasterVertex v0, Rast
     t->depthY = ((d2 - d0) * ax - (d1 - d0) * bx) * inverse;
     t->x0 = (float)x0 / scale - 0.5f;
     t->y0 = (float)y0 / scale - 0.5f;
-    t->depthMin = min(d0, min(d1, d2));
-    t->depthMax = max(d0, max(d1, d2));
+    // Never below 0: the bits of depths must order like the depths
+    t->depthMin = max(min(d0, min(d1, d2)), 0.0f);
+    t->depthMax = max(max(d0, max(d1, d2)), 0.0f);
     return 1;
 }
 

@@ -63,10 +63,11 @@ SHARED_STRUCT(LookupParams, 32)
 
 typedef struct {
     int width, height, planeStride;
-    int pixelStep;        ///< 1, or 2 for half resolution
+    int pixelStep;        ///< 1, or 2: only pixels of even column and row become receivers
     float originOffset;   ///< shadow origin: this times the largest coordinate, along the normal
     float worldMagnitude; ///< least magnitude that the offset is taken of, metres
-    int unused[2];
+    int receiverWidth;    ///< receivers in a row: width / pixelStep, rounded up
+    int receiverStride;   ///< floats between planes of receivers
 } ReceiverParams;
 SHARED_STRUCT(ReceiverParams, 32)
 

@@ -12,17 +12,27 @@
 #include "shared/mesh.h"
 #include "shared/multi_view.h"
 
-/// One work-item per pixel, padding included. Fills receivers [RECEIVER_PLANES, stride], state [stride]
-/// and clears hidden [stride].
+/// Index of the receiver of a pixel, or -1 where the pixel is not tested itself.
+inline int receiverOf(const ReceiverParams* image, int pixel) {
+    if (image->pixelStep == 1) return pixel;
+    const int x = pixel % image->width, y = pixel / image->width;
+    return y < image->height && !(x & 1) && !(y & 1) ? (y >> 1) * image->receiverWidth + (x >> 1) : -1;
+}
+
+/// One work-item per pixel, padding included. Fills receivers [RECEIVER_PLANES, receiverStride], state
+/// [stride] and clears hidden [receiverStride]; the host clears receivers where pixelStep is 2.
 kernel void receivers(const ReceiverParams image, const MultiViewParams params,
                       global const float* restrict planes, global float* restrict receiver,
                       global uint* restrict state, global uint* restrict hidden,
                       volatile global MultiViewCounters* counters) {
     const int pixel = get_global_id(0), stride = image.planeStride;
     if (pixel >= stride) return;
-    hidden[pixel] = 0;
+    const int slot = receiverOf(&image, pixel), slots = image.receiverStride;
     state[pixel] = STATE_MASKED;
-    receiver[RECEIVER_W * stride + pixel] = 0.0f;
+    if (slot >= 0) {
+        hidden[slot] = 0;
+        receiver[RECEIVER_W * slots + slot] = 0.0f;
+    }
     if (as_uint(planes[GB_OBJECT * stride + pixel]) == 0) return;
     const float3 position = (float3)(planes[GB_POSITION * stride + pixel],
                                      planes[(GB_POSITION + 1) * stride + pixel],
@@ -46,12 +56,14 @@ kernel void receivers(const ReceiverParams image, const MultiViewParams params,
     const float w = params.near / z, a = fma(params.focal, x / z, params.centre),
                 b = fma(params.focal, y / z, params.centre);
     state[pixel] = STATE_TESTED;
-    receiver[RECEIVER_A * stride + pixel] = a;
-    receiver[RECEIVER_B * stride + pixel] = b;
-    receiver[RECEIVER_W * stride + pixel] = w;
-    receiver[RECEIVER_GRADIENT_X * stride + pixel] = params.near * nx / params.focal;
-    receiver[RECEIVER_GRADIENT_Y * stride + pixel] = params.near * ny / params.focal;
-    receiver[RECEIVER_FACING * stride + pixel] = facing;
+    if (slot >= 0) {
+        receiver[RECEIVER_A * slots + slot] = a;
+        receiver[RECEIVER_B * slots + slot] = b;
+        receiver[RECEIVER_W * slots + slot] = w;
+        receiver[RECEIVER_GRADIENT_X * slots + slot] = params.near * nx / params.focal;
+        receiver[RECEIVER_GRADIENT_Y * slots + slot] = params.near * ny / params.focal;
+        receiver[RECEIVER_FACING * slots + slot] = facing;
+    }
     const float reachX = params.halfWidth * params.focal / params.near * w;
     const float reachY = params.halfHeight * params.focal / params.near * w;
     const float size = (float)params.resolution;
@@ -78,4 +90,49 @@ kernel void map_average(const int stride, const int views, const int weight,
     const float total = (float)views * (float)weight;
     visibility[pixel] =
         state[pixel] == STATE_TESTED ? (total - (float)hidden[pixel]) / total : 1.0f;
+}
+
+/// Weight of a neighbour's result: full on the same plane, none across edges or folds.
+inline float similarity(global const float* restrict planes, int stride, int pixel, int other) {
+    float along = 0.0f, apart = 0.0f, squared = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float n = planes[(GB_GEOMETRIC + axis) * stride + pixel];
+        const float d = planes[(GB_POSITION + axis) * stride + other] - planes[(GB_POSITION + axis) * stride + pixel];
+        along += n * planes[(GB_GEOMETRIC + axis) * stride + other];
+        apart += n * d;
+        squared += d * d;
+    }
+    const float slope = apart * apart / max(squared, 1e-20f);
+    return max(along - 0.8f, 0.0f) * max(1.0f - 16.0f * slope, 0.0f);
+}
+
+/// As map_average with receivers at every other pixel: the tested pixels around, weighted by distance and
+/// by how much they lie on the same surface; where none does, the nearest tested one.
+kernel void map_upsample(const ReceiverParams image, const int views, const int weight,
+                         global const float* restrict planes, global const uint* restrict state,
+                         global const uint* restrict hidden, global float* restrict visibility) {
+    const int pixel = get_global_id(0), stride = image.planeStride;
+    if (pixel >= stride) return;
+    visibility[pixel] = 1.0f;
+    if (state[pixel] != STATE_TESTED) return;
+    const int x = pixel % image.width, y = pixel / image.width;
+    const float total = (float)views * (float)weight;
+    float sum = 0.0f, weights = 0.0f, nearest = 1.0f, nearestWeight = 0.0f;
+    for (int i = 0; i < 9; ++i) {
+        // Even pixels within two columns and rows
+        const int ex = (x & ~1) + 2 * (i % 3 - 1), ey = (y & ~1) + 2 * (i / 3 - 1);
+        if (ex < 0 || ey < 0 || ex >= image.width || ey >= image.height) continue;
+        const float wx = 2.0f - (float)abs(ex - x), wy = 2.0f - (float)abs(ey - y);
+        const int other = ey * image.width + ex;
+        if (wx <= 0.0f || wy <= 0.0f || state[other] != STATE_TESTED) continue;
+        const float value = (total - (float)hidden[(ey >> 1) * image.receiverWidth + (ex >> 1)]) / total;
+        const float w = wx * wy * similarity(planes, stride, pixel, other);
+        sum += w * value;
+        weights += w;
+        if (wx * wy > nearestWeight) {
+            nearestWeight = wx * wy;
+            nearest = value;
+        }
+    }
+    visibility[pixel] = weights > 1e-6f ? sum / weights : nearest;
 }

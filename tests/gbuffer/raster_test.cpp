@@ -222,17 +222,72 @@ TEST(Raster, AHugeTriangleCoversWhatRaysHit) {
     EXPECT_GT(covered, 500);
 }
 
-TEST(Raster, OrthographicDepthOrdersSurfacesFarBeyondZfar) {
+/// Nearest triangle along a ray beyond depth `nearest`, by Cramer's rule; -1: none.
+int nearestAlong(const std::vector<std::array<glm::dvec3, 3>>& triangles, const glm::dvec3& eye,
+                 const glm::dvec3& ray, double nearest) {
+    int found = -1;
+    double best = 1e300;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const auto& [a, b, c] = triangles[i];
+        const glm::dmat3 m(a - eye, b - eye, c - eye);
+        const glm::dvec3 weights = glm::inverse(m) * ray;
+        if (weights.x < 0 || weights.y < 0 || weights.z < 0) continue;
+        const double t = 1 / (weights.x + weights.y + weights.z);
+        if (t > nearest && t < best) best = t, found = static_cast<int>(i);
+    }
+    return found;
+}
+
+TEST(Raster, TrianglesAllAroundTheCameraAreSeenWhereRaysHitThem) {
+    for (const double extent : {3.0, 1e2, 1e5}) {
+        std::mt19937 random(23);
+        std::uniform_real_distribution<float> at(-static_cast<float>(extent),
+                                                 static_cast<float>(extent));
+        std::vector<std::array<glm::dvec3, 3>> triangles;
+        SceneBuilder builder;
+        builder.material().doubleSided = true;
+        for (int i = 0; i < 60; ++i) {
+            std::vector<glm::vec3> v;
+            for (int c = 0; c < 3; ++c) v.emplace_back(at(random), at(random), at(random));
+            triangles.push_back({v[0], v[1], v[2]});
+            builder.addMesh(v, {0, 1, 2});
+        }
+        auto camera = perspectiveCamera({0, 0, 0}, {1, 0.3, -2}, 80);
+        camera.nearMetres = 0.1;
+        const auto run = runGBuffer(builder.scene(), camera, kCellWidth, kCellHeight);
+        int wrong = 0, covered = 0;
+        for (int y = 0; y < kCellHeight; ++y)
+            for (int x = 0; x < kCellWidth; ++x) {
+                const auto ray = pixelRay(camera, kCellWidth, kCellHeight, x, y);
+                const int truth = nearestAlong(triangles, glm::dvec3(0), ray, camera.nearMetres);
+                wrong += run.object(x, y) != static_cast<std::uint32_t>(truth + 1);
+                covered += truth >= 0;
+            }
+        EXPECT_GT(covered, 1000) << extent;
+        EXPECT_LE(wrong, 8) << extent;  // snapping to 1/256 pixel
+    }
+}
+
+TEST(Raster, OrthographicCamerasOrderSurfacesFarBeyondZfar) {
     SceneBuilder builder;
     builder.material().doubleSided = true;
     for (const float z : {-500.0F, -60.0F, -300.0F})
         builder.addQuad({0, -37, z}, {61, 0, 0}, {0, 37, 0});
-    auto camera = pixelCamera(kCellWidth, kCellHeight);
-    camera.farMetres = 5;
+    auto scene = builder.scene();
+    const auto placed = pixelCamera(kCellWidth, kCellHeight);
+    scene::Camera camera;
+    camera.orthographic = true;
+    camera.node = builder.addMesh({}, {}, placed.worldFromCamera);
+    camera.xmag = placed.xmag, camera.ymag = placed.ymag;
+    camera.znear = 1, camera.zfar = 5;
+    scene = builder.scene();
+    scene.cameras.push_back(camera);
+    const auto pose = scene::poseAt(scene, {}, 0);
+    const auto frame = scene::cameraAt(scene, pose, {}, scene::clipBounds(scene, {}), 61.0 / 37);
     for (const bool wide : {true, false}) {
-        const auto run =
-            runGBuffer(builder.scene(), camera, kCellWidth, kCellHeight, glm::dvec3(0), wide);
+        const auto run = runGBuffer(scene, frame, kCellWidth, kCellHeight, glm::dvec3(0), wide);
         EXPECT_EQ(run.object(30, 18), 2U) << "64-bit atomics " << wide;
+        EXPECT_NEAR(run.value(GB_DEPTH, 30, 18), 70, 1e-3);
     }
 }
 

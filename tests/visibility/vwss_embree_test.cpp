@@ -163,8 +163,7 @@ TEST(VwssEmbree, KeepingBackFacesMakesMorePointsAndLessError) {
         back.settings["vwss.cull"] = "back";
         none.settings["vwss.cull"] = "none";
         EXPECT_LT(error(c.name, c.scene, none), c.least * error(c.name, c.scene, back)) << c.name;
-        EXPECT_GT(runShadows(c.scene, none).counts.points,
-                  runShadows(c.scene, back).counts.points)
+        EXPECT_GT(runShadows(c.scene, none).counts.points, runShadows(c.scene, back).counts.points)
             << c.name;
     }
 }
