@@ -7,8 +7,8 @@
 //   for (int f = 0; f < renderer.frameCount(); ++f)
 //       penumbra::writePng("out.png", renderer.render(f));
 //
-// Units: metres, seconds; degrees where a name says so. Errors are std::runtime_error with a one-line
-// message; exitCodeOf() tells their kind.
+// Units: metres, seconds; degrees where a name says so. Errors are std::runtime_error with a
+// one-line message; exitCodeOf() tells their kind.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -21,25 +21,26 @@ namespace penumbra {
 
 /// What to render and how; the options of `penumbra render`.
 struct RenderOptions {
-    std::string scene;                  ///< .gltf or .glb; empty: the built-in scene
+    std::string scene;  ///< .gltf or .glb; empty: the built-in scene
     std::string technique = "vwss";
     std::map<std::string, std::string> settings;  ///< "vwss.pcf" -> "9"; see techniquesJson()
-    int width = 1280, height = 720;     ///< pixels
-    int supersample = 1;                ///< samples along each side of a pixel, 1 to 8
+    int width = 1280, height = 720;               ///< pixels
+    int supersample = 1;                          ///< samples along each side of a pixel, 1 to 8
     double fps = 24;
-    std::string animation;              ///< name, index, "none"; empty: clip 0 and what moves other nodes
-    std::string camera;                 ///< name, index, "auto"; empty: the file's first, else auto
+    std::string animation;  ///< name, index, "none"; empty: clip 0 and what moves other nodes
+    std::string camera;     ///< name, index, "auto"; empty: the file's first, else auto
     std::optional<std::vector<double>> eye, target;  ///< three numbers, metres
-    std::optional<double> fovDegrees;   ///< vertical
-    bool ground = false;                ///< a square of 20 R under the scene
-    std::vector<std::string> lights;    ///< "rect:at=0,4,0;aim=0,0,0;size=1x1;radiance=20"; replace the file's
-    std::string lightSamples = "64";    ///< N or MxN
+    std::optional<double> fovDegrees;                ///< vertical
+    bool ground = false;                             ///< a square of 20 R under the scene
+    std::vector<std::string>
+        lights;  ///< "rect:at=0,4,0;aim=0,0,0;size=1x1;radiance=20"; replace the file's
+    std::string lightSamples = "64";  ///< N or MxN
     std::string lightPattern = "hammersley";
-    std::string seed = "0";             ///< a number, or "frame": another for each frame
-    int temporal = 0;                   ///< frames averaged
-    std::string exposure = "auto";      ///< or EV: stops of gain
-    std::vector<std::string> aovs;      ///< visibility depth normal position albedo id depth-maps all
-    std::string device;                 ///< cpu, gpu, index, platform:device, part of a name; empty: the best
+    std::string seed = "0";         ///< a number, or "frame": another for each frame
+    int temporal = 0;               ///< frames averaged
+    std::string exposure = "auto";  ///< or EV: stops of gain
+    std::vector<std::string> aovs;  ///< visibility depth normal position albedo id depth-maps all
+    std::string device;  ///< cpu, gpu, index, platform:device, part of a name; empty: the best
     std::uint64_t memoryMegabytes = 0;  ///< limit on device memory; 0: the device's
     bool cache = true;                  ///< keep compiled programs on disk
     bool profile = false;               ///< time every stage (statsJson)
@@ -58,12 +59,13 @@ struct Frame {
     std::vector<float> rgba;        ///< [height, width, 4] linear, scene-referred; alpha = coverage
     std::vector<Channel> channels;  ///< Z, P.X ..., visibility.<light>.R ..., as asked for
     double exposure = 1;            ///< gain for looking; the same for all frames of a sequence
-    /// Depth maps, one list of planes "<light>.<view>" of depthMapSize^2 each; empty unless asked for.
+    /// Depth maps, one list of planes "<light>.<view>" of depthMapSize^2 each; empty unless asked
+    /// for.
     std::vector<Channel> depthMaps;
     int depthMapSize = 0;
     std::vector<std::pair<std::string, std::string>> header;  ///< what made it; goes into files
-    std::string fingerprint;        ///< equal if scene, options, device and version are
-    std::string statsJson;          ///< measurements of this frame, a JSON object
+    std::string fingerprint;  ///< equal if scene, options, device and version are
+    std::string statsJson;    ///< measurements of this frame, a JSON object
 };
 
 class Renderer {
@@ -73,8 +75,8 @@ class Renderer {
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// Renders frame `number` at number / fps seconds, clamped to the clip. The result depends on nothing
-    /// rendered before.
+    /// Renders frame `number` at number / fps seconds, clamped to the clip. The result depends on
+    /// nothing rendered before.
     Frame render(int number);
     /// Frames of the clip: 0 .. frameCount() - 1; 1 for a still scene.
     int frameCount() const;

@@ -58,7 +58,8 @@ scene::SampleChoice sampleChoice(const RenderOptions& options, int frame) {
     try {
         choice.seed = static_cast<std::uint32_t>(std::stoul(options.seed));
     } catch (const std::exception&) {
-        throw Error(fmt::format("--seed '{}' is neither a number nor 'frame'", options.seed), ExitCode::usage);
+        throw Error(fmt::format("--seed '{}' is neither a number nor 'frame'", options.seed),
+                    ExitCode::usage);
     }
     return choice;
 }
@@ -76,7 +77,8 @@ std::size_t drawnTriangles(const scene::Scene& scene) {
 
 double exposureOf(const RenderOptions& options, const glm::dvec3& irradiance) {
     if (options.exposure == "auto") {
-        const double white = (irradiance.x + irradiance.y + irradiance.z) / 3 / kPi * (1 + kAmbient);
+        const double white =
+            (irradiance.x + irradiance.y + irradiance.z) / 3 / kPi * (1 + kAmbient);
         return white > 0 ? kWhite / white : 1;
     }
     try {
@@ -85,8 +87,9 @@ double exposureOf(const RenderOptions& options, const glm::dvec3& irradiance) {
         if (used == options.exposure.size()) return std::exp2(ev);
     } catch (const std::exception&) {
     }
-    throw Error(fmt::format("--exposure '{}' is neither a number of stops nor 'auto'", options.exposure),
-                ExitCode::usage);
+    throw Error(
+        fmt::format("--exposure '{}' is neither a number of stops nor 'auto'", options.exposure),
+        ExitCode::usage);
 }
 
 }  // namespace
@@ -102,11 +105,13 @@ AovChoice parseAovs(const std::vector<std::string>& names) {
         bool known = name == "all";
         for (const auto& [key, member] : all)
             // "all" leaves out depth maps, which are gigabytes
-            if (name == key || (name == "all" && member != &AovChoice::depthMaps)) aovs.*member = known = true;
-        requireUsage(known,
-                     "--aov '{}' is unknown; allowed: all, visibility, depth, normal, position, albedo, id, "
-                     "depth-maps",
-                     name);
+            if (name == key || (name == "all" && member != &AovChoice::depthMaps))
+                aovs.*member = known = true;
+        requireUsage(
+            known,
+            "--aov '{}' is unknown; allowed: all, visibility, depth, normal, position, albedo, id, "
+            "depth-maps",
+            name);
     }
     return aovs;
 }
@@ -117,8 +122,9 @@ scene::Scene loadScene(const RenderOptions& options) {
         scene.lights.clear();
         for (const auto& text : options.lights) scene.lights.push_back(scene::parseLight(text));
     } else if (scene.lights.empty()) {
-        scene.warnings.push_back("the scene has no light that can be used: a square light is placed above it; "
-                                 "choose your own with --light");
+        scene.warnings.push_back(
+            "the scene has no light that can be used: a square light is placed above it; "
+            "choose your own with --light");
     }
     return scene;
 }
@@ -127,11 +133,11 @@ Pipeline::Pipeline(const RenderOptions& options) : Pipeline(options, loadScene(o
 
 Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
     : options_(options), aovs_(parseAovs(options.aovs)), scene_(std::move(scene)) {
-    requireUsage(options.supersample >= 1 && options.supersample <= 8, "--supersample {} is outside of 1 to 8",
-                 options.supersample);
+    requireUsage(options.supersample >= 1 && options.supersample <= 8,
+                 "--supersample {} is outside of 1 to 8", options.supersample);
     requireUsage(options.fps > 0, "--fps {} must be greater than 0", options.fps);
-    requireUsage(options.temporal >= 0 && options.temporal <= 64, "--temporal {} is outside of 0 to 64",
-                 options.temporal);
+    requireUsage(options.temporal >= 0 && options.temporal <= 64,
+                 "--temporal {} is outside of 0 to 64", options.temporal);
     requireUsage(options.width > 0 && options.height > 0 && options.width <= RASTER_MAX_SIZE &&
                      options.height <= RASTER_MAX_SIZE,
                  "--size {}x{} is outside of 1x1 to {}x{} pixels", options.width, options.height,
@@ -172,7 +178,8 @@ void Pipeline::planMemory() const {
     plan.add("colour and visibility", pixels * 5 * sizeof(float));
     plan.add("receivers", pixels * 7 * sizeof(float));
     if (options_.temporal > 1)
-        plan.add("visibility history", 2ULL * static_cast<std::uint64_t>(options_.temporal) * pixels * sizeof(float));
+        plan.add("visibility history",
+                 2ULL * static_cast<std::uint64_t>(options_.temporal) * pixels * sizeof(float));
     plan.add("geometry", drawnTriangles(scene_) * 3 * 64);
     plan.check();
 }
@@ -185,12 +192,16 @@ void Pipeline::makePasses() {
     technique_ = visibility::findTechnique(options_.technique)
                      .make({*device_, options_.settings, width_, height_});
     if (geometry_->mesh().hasBlend)
-        warnOnce("blended and transmissive surfaces are seen as opaque where their alpha is above 0.5, and block "
-                 "a share of the light samples by their opacity");
+        warnOnce(
+            "blended and transmissive surfaces are seen as opaque where their alpha is above 0.5, "
+            "and block "
+            "a share of the light samples by their opacity");
     shade_ = std::make_unique<shading::Shade>(*program_, width_, height_);
     temporal_ = std::make_unique<shading::Temporal>(*program_, width_, height_, options_.temporal);
-    const auto pixels = static_cast<std::uint64_t>((width_ * height_ + GB_PAD - 1) / GB_PAD * GB_PAD);
-    visibility_.planes = runtime::Buffer<float>(*device_, "visibility", runtime::Shape{1, 1, pixels});
+    const auto pixels =
+        static_cast<std::uint64_t>((width_ * height_ + GB_PAD - 1) / GB_PAD * GB_PAD);
+    visibility_.planes =
+        runtime::Buffer<float>(*device_, "visibility", runtime::Shape{1, 1, pixels});
     visibility_.state = runtime::Buffer<std::uint32_t>(*device_, "pixel states", pixels);
 }
 
@@ -199,7 +210,9 @@ double Pipeline::secondsOf(int number) const {
 }
 
 int Pipeline::frameCount() const {
-    return static_cast<int>(std::floor(scene::clipDurationSeconds(scene_, clips_) * options_.fps + 1e-6)) + 1;
+    return static_cast<int>(
+               std::floor(scene::clipDurationSeconds(scene_, clips_) * options_.fps + 1e-6)) +
+           1;
 }
 
 void Pipeline::enqueue(const geometry::Mesh& mesh, bool keep) {
@@ -235,8 +248,8 @@ int Pipeline::renderOnDevice(int number, bool keep) {
     for (;; ++retries) {
         enqueue(mesh, keep);
         if (!anyListGrew()) break;
-        require(retries < kMaxRetries, "frame {}: device lists still overflow after {} attempts", number,
-                retries);
+        require(retries < kMaxRetries, "frame {}: device lists still overflow after {} attempts",
+                number, retries);
         temporal_->undo();
         technique_->takeCounts();
     }
@@ -283,7 +296,8 @@ Frame Pipeline::collect(int number) {
     Frame frame = image::assembleFrame(planes, aovs_, bounds_.centre());
     for (std::size_t i = 0; i < keptVisibility_.size(); ++i)
         image::addVisibility(planes, lights_[i].name, keptVisibility_[i], frame);
-    for (std::size_t i = 0; i < keptMaps_.size(); ++i) image::addDepthMaps(lights_[i].name, keptMaps_[i], frame);
+    for (std::size_t i = 0; i < keptMaps_.size(); ++i)
+        image::addDepthMaps(lights_[i].name, keptMaps_[i], frame);
     frame.number = number;
     frame.exposure = exposure_;
     frame.header = header();
@@ -293,10 +307,13 @@ Frame Pipeline::collect(int number) {
 
 std::vector<std::pair<std::string, std::string>> Pipeline::header() const {
     std::vector<std::pair<std::string, std::string>> entries;
-    const auto add = [&](const std::string& key, const std::string& value) { entries.emplace_back(key, value); };
+    const auto add = [&](const std::string& key, const std::string& value) {
+        entries.emplace_back(key, value);
+    };
     add("version", version());
     add("technique", options_.technique);
-    for (const auto& row : technique_->settings()) add(options_.technique + "." + row.name, row.fallback);
+    for (const auto& row : technique_->settings())
+        add(options_.technique + "." + row.name, row.fallback);
     add("lightSamples", options_.lightSamples);
     add("lightPattern", options_.lightPattern);
     add("seed", options_.seed);
@@ -316,8 +333,8 @@ std::vector<std::pair<std::string, std::string>> Pipeline::header() const {
     return entries;
 }
 
-std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, int number, double wallMs,
-                                 int retries) {
+std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, int number,
+                                 double wallMs, int retries) {
     const auto counts = technique_->takeCounts();
     nlohmann::json json = {{"frame", number},
                            {"wallMs", wallMs},
@@ -337,9 +354,10 @@ std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, 
     if (const auto dropped = geometry_->counts().nonFiniteVertices)
         warnOnce(fmt::format("{} vertices are not finite: their triangles are dropped", dropped));
     if (counts.nearPoints)
-        warnOnce(fmt::format("casters lie nearer to a light than its near plane: {} points keep depth 1; set "
-                             "near= on --light",
-                             counts.nearPoints));
+        warnOnce(fmt::format(
+            "casters lie nearer to a light than its near plane: {} points keep depth 1; set "
+            "near= on --light",
+            counts.nearPoints));
     return json.dump();
 }
 
@@ -347,11 +365,14 @@ std::string Pipeline::statsJson() const {
     nlohmann::json settings;
     for (const auto& [key, value] : header()) settings[key] = value;
     const auto& programs = device_->programs();
-    return nlohmann::json({{"schema", 1},
-                           {"device", device_->info().name},
-                           {"settings", settings},
-                           {"programs", {{"built", programs.built}, {"loaded", programs.loaded}, {"ms", programs.ms}}},
-                           {"memory", {{"peak", device_->memory().peak}, {"planned", device_->memory().peak}}}})
+    return nlohmann::json(
+               {{"schema", 1},
+                {"device", device_->info().name},
+                {"settings", settings},
+                {"programs",
+                 {{"built", programs.built}, {"loaded", programs.loaded}, {"ms", programs.ms}}},
+                {"memory",
+                 {{"peak", device_->memory().peak}, {"planned", device_->memory().peak}}}})
         .dump();
 }
 

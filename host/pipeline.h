@@ -21,8 +21,8 @@ namespace penumbra {
 
 /// Which extra channels a frame carries.
 struct AovChoice {
-    bool visibility = false, depth = false, normal = false, position = false, albedo = false, id = false,
-         depthMaps = false;
+    bool visibility = false, depth = false, normal = false, position = false, albedo = false,
+         id = false, depthMaps = false;
 };
 /// Throws Error (usage) naming what is allowed.
 AovChoice parseAovs(const std::vector<std::string>& names);
@@ -48,7 +48,8 @@ class Pipeline {
     double secondsOf(int number) const;
     void makePasses();
     void planMemory() const;
-    /// Renders into the device's images; repeats where a list was too short. Returns the repetitions.
+    /// Renders into the device's images; repeats where a list was too short. Returns the
+    /// repetitions.
     int renderOnDevice(int number, bool keep);
     void enqueue(const geometry::Mesh& mesh, bool keep);
     bool anyListGrew();
@@ -74,15 +75,15 @@ class Pipeline {
     std::unique_ptr<shading::Shade> shade_;
     std::unique_ptr<shading::Temporal> temporal_;
     visibility::Visibility visibility_;
-    std::vector<std::vector<float>> keptVisibility_;   ///< per light, when asked for
+    std::vector<std::vector<float>> keptVisibility_;  ///< per light, when asked for
     std::vector<visibility::DepthMaps> keptMaps_;
-    std::vector<scene::AreaLight> lights_;             ///< of the frame in flight
+    std::vector<scene::AreaLight> lights_;  ///< of the frame in flight
     scene::CameraFrame camera_;
     double exposure_ = 1;
     glm::dvec3 ambient_{0};
     std::string fingerprint_;
     std::vector<std::string> warnings_, warned_;
-    std::optional<int> lastFrame_;   ///< whose history the temporal pass holds
+    std::optional<int> lastFrame_;  ///< whose history the temporal pass holds
 };
 
 }  // namespace penumbra

@@ -58,7 +58,9 @@ std::string devicesJson(const std::string& requested) {
                         {"vendor", d.vendor},
                         {"driver", d.driver},
                         {"version", d.version},
-                        {"kind", d.isGpu ? "gpu" : d.isCpu ? "cpu" : "other"},
+                        {"kind", d.isGpu   ? "gpu"
+                                 : d.isCpu ? "cpu"
+                                           : "other"},
                         {"computeUnits", d.computeUnits},
                         {"clockMhz", d.clockMhz},
                         {"globalBytes", d.globalBytes},
@@ -70,7 +72,8 @@ std::string devicesJson(const std::string& requested) {
                         {"note", d.whyNot},
                         {"chosen", i == chosen}});
     }
-    nlohmann::json result = {{"devices", list}, {"why", why}, {"searched", runtime::icdSearchPath()}};
+    nlohmann::json result = {
+        {"devices", list}, {"why", why}, {"searched", runtime::icdSearchPath()}};
     return result.dump(2);
 }
 

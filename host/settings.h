@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Settings of techniques. A settings struct names each of its rows once, in
-//   template <typename Row> void rows(Row& row) { row.number("pcf", pcf, 1, 9, "taps", "tests a map"); ... }
-// and its member initialisers are the defaults. Checks, --help, `penumbra techniques`, the README's table
-// and the EXR header all come from these rows.
+//   template <typename Row> void rows(Row& row) { row.number("pcf", pcf, 1, 9, "taps", "tests a
+//   map"); ... }
+// and its member initialisers are the defaults. Checks, --help, `penumbra techniques`, the README's
+// table and the EXR header all come from these rows.
 #pragma once
 #include <algorithm>
 #include <charconv>
@@ -28,22 +29,36 @@ using SettingValues = std::map<std::string, std::string>;
 /// Visitor that describes rows.
 class DescribeRows {
   public:
-    void number(const char* name, int& value, int low, int high, const char* unit, const char* meaning,
-                bool device = true) {
-        rows.push_back({name, "int", fmt::format("{}", value), fmt::format("{}", low),
-                        fmt::format("{}", high), unit, meaning, {}, device});
+    void number(const char* name, int& value, int low, int high, const char* unit,
+                const char* meaning, bool device = true) {
+        rows.push_back({name,
+                        "int",
+                        fmt::format("{}", value),
+                        fmt::format("{}", low),
+                        fmt::format("{}", high),
+                        unit,
+                        meaning,
+                        {},
+                        device});
     }
     void number(const char* name, float& value, float low, float high, const char* unit,
                 const char* meaning, bool device = true) {
-        rows.push_back({name, "float", fmt::format("{}", value), fmt::format("{}", low),
-                        fmt::format("{}", high), unit, meaning, {}, device});
+        rows.push_back({name,
+                        "float",
+                        fmt::format("{}", value),
+                        fmt::format("{}", low),
+                        fmt::format("{}", high),
+                        unit,
+                        meaning,
+                        {},
+                        device});
     }
     void flag(const char* name, bool& value, const char* meaning, bool device = true) {
         rows.push_back({name, "bool", value ? "true" : "false", "", "", "", meaning, {}, device});
     }
     template <typename Enum>
-    void choice(const char* name, Enum& value, std::vector<std::string> choices, const char* meaning,
-                bool device = true) {
+    void choice(const char* name, Enum& value, std::vector<std::string> choices,
+                const char* meaning, bool device = true) {
         const auto fallback = choices[static_cast<std::size_t>(value)];
         rows.push_back({name, "enum", fallback, "", "", "", meaning, std::move(choices), device});
     }
@@ -60,15 +75,15 @@ class ApplyRows {
                 bool = true) {
         parse(name, value, low, high, unit);
     }
-    void number(const char* name, float& value, float low, float high, const char* unit, const char*,
-                bool = true) {
+    void number(const char* name, float& value, float low, float high, const char* unit,
+                const char*, bool = true) {
         parse(name, value, low, high, unit);
     }
     void flag(const char* name, bool& value, const char*, bool = true) {
         const auto* text = find(name);
         if (!text) return;
-        requireUsage(*text == "true" || *text == "false", "{}.{} = {} is not true or false", technique_,
-                     name, *text);
+        requireUsage(*text == "true" || *text == "false", "{}.{} = {} is not true or false",
+                     technique_, name, *text);
         value = *text == "true";
     }
     template <typename Enum>
@@ -85,10 +100,11 @@ class ApplyRows {
     void requireAllUsed() const {
         const std::string prefix = technique_ + ".";
         for (const auto& [key, value] : values_)
-            requireUsage(key.rfind(prefix, 0) != 0 ||
-                             std::find(seen_.begin(), seen_.end(), key.substr(prefix.size())) != seen_.end(),
-                         "{} has no setting '{}'; allowed: {}", technique_, key.substr(std::min(prefix.size(), key.size())),
-                         fmt::join(seen_, ", "));
+            requireUsage(
+                key.rfind(prefix, 0) != 0 ||
+                    std::find(seen_.begin(), seen_.end(), key.substr(prefix.size())) != seen_.end(),
+                "{} has no setting '{}'; allowed: {}", technique_,
+                key.substr(std::min(prefix.size(), key.size())), fmt::join(seen_, ", "));
     }
 
   private:
@@ -102,11 +118,12 @@ class ApplyRows {
         const auto* text = find(name);
         if (!text) return;
         T parsed{};
-        const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), parsed);
+        const auto [end, error] =
+            std::from_chars(text->data(), text->data() + text->size(), parsed);
         requireUsage(error == std::errc() && end == text->data() + text->size(),
                      "{}.{} = {} is not a number", technique_, name, *text);
-        requireUsage(parsed >= low && parsed <= high, "{}.{} = {} is outside of {} to {} {}", technique_,
-                     name, *text, low, high, unit);
+        requireUsage(parsed >= low && parsed <= high, "{}.{} = {} is outside of {} to {} {}",
+                     technique_, name, *text, low, high, unit);
         value = parsed;
     }
     std::string technique_;

@@ -13,13 +13,14 @@ constexpr double kMegabyte = 1024.0 * 1024.0;
 [[noreturn]] void throwOutOfMemory(const Device& device, const std::string& label,
                                    std::uint64_t bytes, const std::string& reason) {
     throw Error(
-        fmt::format("out of memory on {}: {} needs {:.1f} MB, {:.1f} MB are in use of {:.1f} MB, the "
-                    "largest single allocation is {:.1f} MB ({}); use fewer light samples, a smaller "
-                    "size or resolution, or raise --memory",
-                    device.info().name, label, static_cast<double>(bytes) / kMegabyte,
-                    static_cast<double>(device.memory().current) / kMegabyte,
-                    static_cast<double>(device.memoryLimitBytes()) / kMegabyte,
-                    static_cast<double>(device.info().maxAllocBytes) / kMegabyte, reason),
+        fmt::format(
+            "out of memory on {}: {} needs {:.1f} MB, {:.1f} MB are in use of {:.1f} MB, the "
+            "largest single allocation is {:.1f} MB ({}); use fewer light samples, a smaller "
+            "size or resolution, or raise --memory",
+            device.info().name, label, static_cast<double>(bytes) / kMegabyte,
+            static_cast<double>(device.memory().current) / kMegabyte,
+            static_cast<double>(device.memoryLimitBytes()) / kMegabyte,
+            static_cast<double>(device.info().maxAllocBytes) / kMegabyte, reason),
         ExitCode::outOfMemory);
 }
 
@@ -82,41 +83,36 @@ void Memory::release() {
 
 void Memory::write(const void* data, std::uint64_t offset, std::uint64_t bytes) {
     if (!bytes) return;
-    checked(*this, "upload", [&] {
-        device_->queue().enqueueWriteBuffer(*buffer_, CL_TRUE, offset, bytes, data);
-    });
+    checked(*this, "upload",
+            [&] { device_->queue().enqueueWriteBuffer(*buffer_, CL_TRUE, offset, bytes, data); });
 }
 
 void Memory::stage(std::shared_ptr<const void> data, std::uint64_t bytes) {
     if (!bytes) return;
-    checked(*this, "upload", [&] {
-        device_->queue().enqueueWriteBuffer(*buffer_, CL_FALSE, 0, bytes, data.get());
-    });
+    checked(*this, "upload",
+            [&] { device_->queue().enqueueWriteBuffer(*buffer_, CL_FALSE, 0, bytes, data.get()); });
     device_->keepUntilFinish(std::move(data));
 }
 
 void Memory::read(void* data, std::uint64_t offset, std::uint64_t bytes) const {
     if (!bytes) return;
-    checked(*this, "download", [&] {
-        device_->queue().enqueueReadBuffer(*buffer_, CL_TRUE, offset, bytes, data);
-    });
+    checked(*this, "download",
+            [&] { device_->queue().enqueueReadBuffer(*buffer_, CL_TRUE, offset, bytes, data); });
 }
 
 void Memory::fill(const void* pattern, std::size_t patternBytes, std::uint64_t bytes) {
     if (!bytes) return;
     checked(*this, "fill", [&] {
-        const cl_int error =
-            clEnqueueFillBuffer(device_->queue()(), (*buffer_)(), pattern, patternBytes, 0, bytes, 0,
-                                nullptr, nullptr);
+        const cl_int error = clEnqueueFillBuffer(device_->queue()(), (*buffer_)(), pattern,
+                                                 patternBytes, 0, bytes, 0, nullptr, nullptr);
         if (error != CL_SUCCESS) throw cl::Error(error, "clEnqueueFillBuffer");
     });
 }
 
 void Memory::copyFrom(const Memory& source, std::uint64_t bytes) {
     if (!bytes) return;
-    checked(*this, "copy", [&] {
-        device_->queue().enqueueCopyBuffer(*source.buffer_, *buffer_, 0, 0, bytes);
-    });
+    checked(*this, "copy",
+            [&] { device_->queue().enqueueCopyBuffer(*source.buffer_, *buffer_, 0, 0, bytes); });
 }
 
 }  // namespace penumbra::runtime

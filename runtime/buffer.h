@@ -30,11 +30,11 @@ class Memory {
     const cl::Buffer& handle() const { return *buffer_; }
     bool allocated() const { return buffer_ != nullptr; }
 
-    void write(const void* data, std::uint64_t offset, std::uint64_t bytes);   ///< waits
-    void stage(std::shared_ptr<const void> data, std::uint64_t bytes);         ///< does not wait
-    void read(void* data, std::uint64_t offset, std::uint64_t bytes) const;    ///< waits
+    void write(const void* data, std::uint64_t offset, std::uint64_t bytes);  ///< waits
+    void stage(std::shared_ptr<const void> data, std::uint64_t bytes);        ///< does not wait
+    void read(void* data, std::uint64_t offset, std::uint64_t bytes) const;   ///< waits
     void fill(const void* pattern, std::size_t patternBytes, std::uint64_t bytes);  ///< enqueues
-    void copyFrom(const Memory& source, std::uint64_t bytes);                  ///< enqueues
+    void copyFrom(const Memory& source, std::uint64_t bytes);                       ///< enqueues
 
   private:
     void release();

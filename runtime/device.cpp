@@ -90,8 +90,8 @@ double speedGuess(const DeviceInfo& info) {
 std::string listNames(const std::vector<DeviceInfo>& devices) {
     std::string names;
     for (std::size_t i = 0; i < devices.size(); ++i)
-        names += fmt::format("{}{}: {} / {}", i ? "; " : "", i, devices[i].platform,
-                             devices[i].name);
+        names +=
+            fmt::format("{}{}: {} / {}", i ? "; " : "", i, devices[i].platform, devices[i].name);
     return names;
 }
 
@@ -181,10 +181,10 @@ DeviceChoice chooseDevice(const std::vector<DeviceInfo>& devices, const std::str
         choice.why = "asked for by name or index";
     }
     if (choice.index >= devices.size())
-        throwNoDevice(fmt::format("no OpenCL device matches {}'{}'; found {}; allowed: cpu, gpu, an "
-                                  "index, platform:device, or part of a name",
-                                  fromEnvironment ? "PENUMBRA_DEVICE=" : "--device ", request,
-                                  listNames(devices)));
+        throwNoDevice(fmt::format(
+            "no OpenCL device matches {}'{}'; found {}; allowed: cpu, gpu, an "
+            "index, platform:device, or part of a name",
+            fromEnvironment ? "PENUMBRA_DEVICE=" : "--device ", request, listNames(devices)));
     const auto& info = devices[choice.index];
     if (!info.usable)
         throwNoDevice(fmt::format("device {} {}; choose another with --device: {}", info.name,
@@ -256,7 +256,8 @@ std::uint64_t Device::memoryLimitBytes() const {
 }
 
 void Device::accountMemory(std::int64_t bytes) {
-    memory_.current = static_cast<std::uint64_t>(static_cast<std::int64_t>(memory_.current) + bytes);
+    memory_.current =
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(memory_.current) + bytes);
     memory_.peak = std::max(memory_.peak, memory_.current);
 }
 

@@ -26,8 +26,8 @@ struct DeviceInfo {
     int clockMhz = 0;
     std::uint64_t globalBytes = 0, maxAllocBytes = 0, localBytes = 0;
     int maxWorkGroup = 0;
-    bool atomics64 = false;   ///< 64-bit atomic max, by extension and quirk table
-    int lanes = 1;            ///< floats per vector in kernels/lib/lanes.h: 1, 8 or 16
+    bool atomics64 = false;     ///< 64-bit atomic max, by extension and quirk table
+    int lanes = 1;              ///< floats per vector in kernels/lib/lanes.h: 1, 8 or 16
     bool cachesBuilds = false;  ///< the driver keeps compiled programs on disk itself
     bool chosenUnasked = true;  ///< false for emulators
 };
@@ -49,8 +49,8 @@ struct DeviceChoice {
 DeviceChoice chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request);
 
 struct DeviceOptions {
-    bool profiling = false;      ///< record events; see Profiler
-    bool cache = true;           ///< keep program binaries on disk
+    bool profiling = false;              ///< record events; see Profiler
+    bool cache = true;                   ///< keep program binaries on disk
     std::uint64_t memoryLimitBytes = 0;  ///< 0: the device's own
     bool verbose = false;
 };

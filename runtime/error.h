@@ -43,8 +43,7 @@ void require(bool condition, fmt::format_string<Args...> message, Args&&... args
 /// The same for usage errors (exit code 2).
 template <typename... Args>
 void requireUsage(bool condition, fmt::format_string<Args...> message, Args&&... args) {
-    if (!condition)
-        throw Error(fmt::format(message, std::forward<Args>(args)...), ExitCode::usage);
+    if (!condition) throw Error(fmt::format(message, std::forward<Args>(args)...), ExitCode::usage);
 }
 
 }  // namespace penumbra

@@ -61,12 +61,13 @@ void KernelBase::enqueue(Range items, Range group) {
         device_->queue().enqueueNDRangeKernel(*kernel_, cl::NullRange, global, local, nullptr,
                                               profiler.newEvent());
     } catch (const cl::Error& error) {
-        throw Error(fmt::format("kernel {} over {} x {} x {} items in groups of {} x {} x {} does not "
-                                "start on {} (OpenCL error {})",
-                                name_, items.x, items.y, items.z, group.x, group.y, group.z,
-                                device_->info().name, error.err()),
-                    error.err() == CL_MEM_OBJECT_ALLOCATION_FAILURE ? ExitCode::outOfMemory
-                                                                     : ExitCode::failed);
+        throw Error(
+            fmt::format("kernel {} over {} x {} x {} items in groups of {} x {} x {} does not "
+                        "start on {} (OpenCL error {})",
+                        name_, items.x, items.y, items.z, group.x, group.y, group.z,
+                        device_->info().name, error.err()),
+            error.err() == CL_MEM_OBJECT_ALLOCATION_FAILURE ? ExitCode::outOfMemory
+                                                            : ExitCode::failed);
     }
     profiler.launched();
 }

@@ -17,12 +17,24 @@ class Kernel;
 namespace penumbra::runtime {
 
 // Names of host types in OpenCL C; shared structs get theirs from SHARED_STRUCT.
-inline const char* deviceType(const int*) { return "int"; }
-inline const char* deviceType(const std::uint32_t*) { return "uint"; }
-inline const char* deviceType(const float*) { return "float"; }
-inline const char* deviceType(const std::uint64_t*) { return "ulong"; }
-inline const char* deviceType(const std::uint16_t*) { return "ushort"; }
-inline const char* deviceType(const std::uint8_t*) { return "uchar"; }
+inline const char* deviceType(const int*) {
+    return "int";
+}
+inline const char* deviceType(const std::uint32_t*) {
+    return "uint";
+}
+inline const char* deviceType(const float*) {
+    return "float";
+}
+inline const char* deviceType(const std::uint64_t*) {
+    return "ulong";
+}
+inline const char* deviceType(const std::uint16_t*) {
+    return "ushort";
+}
+inline const char* deviceType(const std::uint8_t*) {
+    return "uchar";
+}
 template <typename T>
 std::string deviceType(const Buffer<T>*) {
     return std::string(deviceType(static_cast<const T*>(nullptr))) + "*";
@@ -40,7 +52,8 @@ class KernelBase {
     const std::string& name() const { return name_; }
 
   protected:
-    void checkSignature(const Program& program, const std::string* hostTypes, std::size_t count) const;
+    void checkSignature(const Program& program, const std::string* hostTypes,
+                        std::size_t count) const;
     void setBytes(unsigned index, std::size_t bytes, const void* value);
     void setMemory(unsigned index, const Memory& memory);
     void enqueue(Range items, Range group);
@@ -50,8 +63,8 @@ class KernelBase {
     std::shared_ptr<cl::Kernel> kernel_;
 };
 
-/// A kernel of a program. Args... are the host types of its parameters, in order: a shared struct, a
-/// number, or Buffer<T> for a pointer to T.
+/// A kernel of a program. Args... are the host types of its parameters, in order: a shared struct,
+/// a number, or Buffer<T> for a pointer to T.
 template <typename... Args>
 class Kernel : public KernelBase {
   public:

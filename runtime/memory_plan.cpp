@@ -39,18 +39,19 @@ void MemoryPlan::check() const {
     const auto limit = device_->memoryLimitBytes();
     const auto maxAlloc = device_->info().maxAllocBytes;
     if (!sorted.empty() && sorted[0].bytes > maxAlloc)
-        throw Error(fmt::format("out of memory: {} needs {:.1f} MB at once, {} allows {:.1f} MB; use a "
-                                "smaller --size or resolution",
-                                sorted[0].label, megabytes(sorted[0].bytes), device_->info().name,
-                                megabytes(maxAlloc)),
-                    ExitCode::outOfMemory);
+        throw Error(
+            fmt::format("out of memory: {} needs {:.1f} MB at once, {} allows {:.1f} MB; use a "
+                        "smaller --size or resolution",
+                        sorted[0].label, megabytes(sorted[0].bytes), device_->info().name,
+                        megabytes(maxAlloc)),
+            ExitCode::outOfMemory);
     if (plannedBytes() > limit)
-        throw Error(fmt::format("out of memory: the plan needs {:.1f} MB ({}), {} may use {:.1f} MB; "
-                                "use a smaller --size, resolution or fewer light samples, or raise "
-                                "--memory",
-                                megabytes(plannedBytes()), largest, device_->info().name,
-                                megabytes(limit)),
-                    ExitCode::outOfMemory);
+        throw Error(
+            fmt::format("out of memory: the plan needs {:.1f} MB ({}), {} may use {:.1f} MB; "
+                        "use a smaller --size, resolution or fewer light samples, or raise "
+                        "--memory",
+                        megabytes(plannedBytes()), largest, device_->info().name, megabytes(limit)),
+            ExitCode::outOfMemory);
 }
 
 }  // namespace penumbra::runtime

@@ -14,8 +14,8 @@ class MemoryPlan {
     explicit MemoryPlan(const Device& device) : device_(&device) {}
     void add(const std::string& label, std::uint64_t bytes);
     std::uint64_t plannedBytes() const;
-    /// What is left for buffers that adapt their size (batches of views): the device's limit less what
-    /// is planned, less a tenth for the driver.
+    /// What is left for buffers that adapt their size (batches of views): the device's limit less
+    /// what is planned, less a tenth for the driver.
     std::uint64_t freeBytes() const;
     /// Throws Error (exit code 4) naming the largest entries when the plan does not fit.
     void check() const;

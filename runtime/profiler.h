@@ -16,8 +16,8 @@ class Device;
 /// One stage of one frame: all launches between beginStage() calls of that name.
 struct StageTime {
     std::string name;
-    double deviceMs = 0;     ///< sum over launches, start to end
-    double wallMs = 0;       ///< first start to last end on the device's clock
+    double deviceMs = 0;  ///< sum over launches, start to end
+    double wallMs = 0;    ///< first start to last end on the device's clock
     int launches = 0;
     double maxLaunchMs = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cache entry: a text head (magic, digest of the rest, signatures) and the driver's binary. The digest
-// is checked before the driver sees the binary, since some crash on a damaged one.
+// Cache entry: a text head (magic, digest of the rest, signatures) and the driver's binary. The
+// digest is checked before the driver sees the binary, since some crash on a damaged one.
 #include "runtime/program.h"
 
 #include <unistd.h>
@@ -79,8 +79,9 @@ void Program::build(const std::string& source, const std::string& options) {
     } catch (const cl::Error& error) {
         std::string log;
         if (program_) log = program_->getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_->handle());
-        throw Error(fmt::format("program '{}' does not build on {} with '{}' (OpenCL error {}):\n{}",
-                                name_, device_->info().name, options, error.err(), log));
+        throw Error(
+            fmt::format("program '{}' does not build on {} with '{}' (OpenCL error {}):\n{}", name_,
+                        device_->info().name, options, error.err(), log));
     }
 }
 

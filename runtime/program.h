@@ -20,8 +20,8 @@ const char* programSource(const std::string& name);
 /// One program built for one device. Cheap to copy.
 class Program {
   public:
-    /// Builds or loads `name` with the device's traits and `defines` ("NAME=VALUE"), which hold for the
-    /// whole program. Throws Error with device, options and build log when it does not build.
+    /// Builds or loads `name` with the device's traits and `defines` ("NAME=VALUE"), which hold for
+    /// the whole program. Throws Error with device, options and build log when it does not build.
     Program(Device& device, const std::string& name, const std::vector<std::string>& defines = {});
 
     Device& device() const { return *device_; }
@@ -44,7 +44,8 @@ class Program {
     std::map<std::string, std::vector<std::string>> signatures_;
 };
 
-/// Folder of cached binaries: $XDG_CACHE_HOME/penumbra or ~/.cache/penumbra; empty if neither is set.
+/// Folder of cached binaries: $XDG_CACHE_HOME/penumbra or ~/.cache/penumbra; empty if neither is
+/// set.
 std::string cacheFolder();
 
 }  // namespace penumbra::runtime

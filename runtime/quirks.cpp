@@ -11,7 +11,8 @@ struct Quirk {
 };
 
 const Quirk kQuirks[] = {
-    {"Portable Computing Language", "", "caches kernels by preprocessed source, better than binaries",
+    {"Portable Computing Language", "",
+     "caches kernels by preprocessed source, better than binaries",
      [](DeviceInfo& info) { info.cachesBuilds = true; }},
     {"NVIDIA CUDA", "", "caches compiled programs on disk",
      [](DeviceInfo& info) { info.cachesBuilds = true; }},

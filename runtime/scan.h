@@ -10,8 +10,8 @@ namespace penumbra::runtime {
 class Scan {
   public:
     explicit Scan(const Program& frame);
-    /// Replaces values [count] by their exclusive prefix sum; total [1] receives the sum (modulo 2^32).
-    /// count may be 0. Enqueues only. Kernels: kernels/runtime/scan.cl
+    /// Replaces values [count] by their exclusive prefix sum; total [1] receives the sum (modulo
+    /// 2^32). count may be 0. Enqueues only. Kernels: kernels/runtime/scan.cl
     void run(Buffer<std::uint32_t>& values, std::uint32_t count, Buffer<std::uint32_t>& total);
 
   private:

@@ -17,10 +17,11 @@ void selfTest(const Program& frame) {
     kernel.launch({kItems}, {64}, kItems, results);
     const auto r = results.download();
     const auto refuse = [&](const char* what) {
-        throw Error(fmt::format("device {} fails its self-test: {}; choose another with --device or update "
-                                "its driver",
-                                device.info().name, what),
-                    ExitCode::noDevice);
+        throw Error(
+            fmt::format("device {} fails its self-test: {}; choose another with --device or update "
+                        "its driver",
+                        device.info().name, what),
+            ExitCode::noDevice);
     };
     if (r[0] != std::bit_cast<std::uint32_t>(kItems - 0.5F)) refuse("32-bit atomic maximum");
     if (r[1] != kItems) refuse("32-bit atomic increment");

@@ -4,7 +4,8 @@
 
 namespace penumbra::runtime {
 
-/// Runs a kernel whose answers are known. Throws Error (exit code 3) naming what the device gets wrong.
+/// Runs a kernel whose answers are known. Throws Error (exit code 3) naming what the device gets
+/// wrong.
 void selfTest(const Program& frame);
 
 }  // namespace penumbra::runtime

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Says on stderr what takes long, but only once it has taken longer than a second.
 #pragma once
-#include <string>
-
 #include <condition_variable>
 #include <mutex>
+#include <string>
 #include <thread>
 
 namespace penumbra::runtime {

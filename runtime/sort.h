@@ -11,9 +11,9 @@ namespace penumbra::runtime {
 class Sort {
   public:
     explicit Sort(const Program& frame);
-    /// Sorts keys [count] ascending and moves values [count] along; pairs of equal keys keep their order.
-    /// Only the lowest `bits` of the keys count (1 to 32). Enqueues; allocates scratch when count grows.
-    /// Kernels: kernels/runtime/sort.cl
+    /// Sorts keys [count] ascending and moves values [count] along; pairs of equal keys keep their
+    /// order. Only the lowest `bits` of the keys count (1 to 32). Enqueues; allocates scratch when
+    /// count grows. Kernels: kernels/runtime/sort.cl
     void run(Buffer<std::uint32_t>& keys, Buffer<std::uint32_t>& values, std::uint32_t count,
              int bits = 32);
 

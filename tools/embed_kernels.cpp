@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Turns kernels/**.cl into C++ strings, one per program. An #include "x.h" is pasted once per program,
-// an "x.inl" each time; #line directives let device compilers name the real file and line.
+// Turns kernels/**.cl into C++ strings, one per program. An #include "x.h" is pasted once per
+// program, an "x.inl" each time; #line directives let device compilers name the real file and line.
 // usage: embed_kernels <kernel folder> <output.cpp> <program>=<stem>[,<stem>...] ...
 #include <fstream>
 #include <iostream>
@@ -12,7 +12,8 @@
 namespace {
 
 /// Text of `folder`/`path` with its includes pasted in; `seen` holds the headers pasted already.
-std::string flatten(const std::string& folder, const std::string& path, std::set<std::string>& seen) {
+std::string flatten(const std::string& folder, const std::string& path,
+                    std::set<std::string>& seen) {
     std::ifstream file(folder + "/" + path);
     if (!file) throw std::runtime_error("cannot read " + folder + "/" + path);
     std::ostringstream out;

@@ -27,7 +27,8 @@ void parseSize(const std::string& text, RenderOptions& options) {
     int width = 0, height = 0, used = 0;
     const bool whole = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2 &&
                        static_cast<std::size_t>(used) == text.size();
-    requireUsage(whole && width > 0 && height > 0, "--size '{}' is not WIDTHxHEIGHT in pixels", text);
+    requireUsage(whole && width > 0 && height > 0, "--size '{}' is not WIDTHxHEIGHT in pixels",
+                 text);
     options.width = width;
     options.height = height;
 }
@@ -39,8 +40,8 @@ void parseSettings(const std::vector<std::string>& texts, RenderOptions& options
         requireUsage(equals != std::string::npos && dot < equals,
                      "--set '{}' is not technique.setting=value; see `penumbra techniques`", text);
         const auto technique = text.substr(0, dot);
-        requireUsage(technique == options.technique, "--set '{}' is for {}, and --technique is {}", text, technique,
-                     options.technique);
+        requireUsage(technique == options.technique, "--set '{}' is for {}, and --technique is {}",
+                     text, technique, options.technique);
         options.settings[text.substr(0, equals)] = text.substr(equals + 1);
     }
 }
@@ -51,31 +52,54 @@ void addScene(CLI::App& command, Arguments& a) {
 
 void addCamera(CLI::App& render, Arguments& a) {
     auto& o = a.render.options;
-    render.add_option("--camera", o.camera, "name or index of a camera, or auto; default: the file's first, else auto");
-    render.add_option("--eye", a.eye, "camera position x,y,z in metres")->delimiter(',')->expected(3);
-    render.add_option("--target", a.target, "point the camera looks at, x,y,z")->delimiter(',')->expected(3);
+    render.add_option("--camera", o.camera,
+                      "name or index of a camera, or auto; default: the file's first, else auto");
+    render.add_option("--eye", a.eye, "camera position x,y,z in metres")
+        ->delimiter(',')
+        ->expected(3);
+    render.add_option("--target", a.target, "point the camera looks at, x,y,z")
+        ->delimiter(',')
+        ->expected(3);
     render.add_option("--fov", a.fov, "vertical field of view, degrees");
 }
 
 void addLights(CLI::App& render, Arguments& a) {
     auto& o = a.render.options;
-    render.add_option("--light", o.lights, "rect:at=0,4,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=20 (disk:, sphere: with radius=; fov=, near=, name=); replaces the file's lights; repeatable");
-    render.add_option("--light-samples", o.lightSamples, "samples of each light: N, or MxN for a grid")->capture_default_str();
-    render.add_option("--light-pattern", o.lightPattern, "hammersley, poisson, grid, jittered")->capture_default_str();
-    render.add_option("--seed", o.seed, "of the pattern: a number, or frame for another each frame")->capture_default_str();
+    render.add_option("--light", o.lights,
+                      "rect:at=0,4,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=20 (disk:, sphere: with "
+                      "radius=; fov=, near=, name=); replaces the file's lights; repeatable");
+    render
+        .add_option("--light-samples", o.lightSamples,
+                    "samples of each light: N, or MxN for a grid")
+        ->capture_default_str();
+    render.add_option("--light-pattern", o.lightPattern, "hammersley, poisson, grid, jittered")
+        ->capture_default_str();
+    render
+        .add_option("--seed", o.seed, "of the pattern: a number, or frame for another each frame")
+        ->capture_default_str();
 }
 
 void addOutput(CLI::App& render, Arguments& a) {
     auto& r = a.render;
     auto& o = r.options;
-    render.add_option("-o,--output", r.output, "file: .exr or .png; #### is the frame number")->required();
+    render.add_option("-o,--output", r.output, "file: .exr or .png; #### is the frame number")
+        ->required();
     render.add_option("--frames", r.frames, "1,3,5..10 or 0..119 or all")->capture_default_str();
     render.add_option("--fps", o.fps, "frames per second")->capture_default_str();
     render.add_option("--size", a.size, "pixels")->capture_default_str();
-    render.add_option("--supersample", o.supersample, "samples along each side of a pixel, 1 to 8")->capture_default_str();
-    render.add_option("--exposure", o.exposure, "of PNG files: auto (white at the scene's centre is 0.8) or stops")->capture_default_str();
-    render.add_option("--aov", o.aovs, "extra channels of EXR files: all, visibility, depth, normal, position, albedo, id, depth-maps")->delimiter(',');
-    render.add_option("--temporal", o.temporal, "frames that visibility is averaged over")->capture_default_str();
+    render.add_option("--supersample", o.supersample, "samples along each side of a pixel, 1 to 8")
+        ->capture_default_str();
+    render
+        .add_option("--exposure", o.exposure,
+                    "of PNG files: auto (white at the scene's centre is 0.8) or stops")
+        ->capture_default_str();
+    render
+        .add_option("--aov", o.aovs,
+                    "extra channels of EXR files: all, visibility, depth, normal, position, "
+                    "albedo, id, depth-maps")
+        ->delimiter(',');
+    render.add_option("--temporal", o.temporal, "frames that visibility is averaged over")
+        ->capture_default_str();
     render.add_flag("--resume", r.resume, "skip whole frames of the same fingerprint");
     render.add_option("--stats", r.stats, "write measurements as JSON");
 }
@@ -85,13 +109,16 @@ CLI::App* addRender(CLI::App& app, Arguments& a) {
     auto& o = a.render.options;
     addScene(render, a);
     addOutput(render, a);
-    render.add_option("--technique", o.technique, "see `penumbra techniques`")->capture_default_str();
+    render.add_option("--technique", o.technique, "see `penumbra techniques`")
+        ->capture_default_str();
     render.add_option("--set", a.settings, "technique.setting=value; repeatable");
     addLights(render, a);
     addCamera(render, a);
     render.add_flag("--ground", o.ground, "put a floor under the scene");
-    render.add_option("--animation", o.animation, "name, index, or none; default: clip 0 and what moves other nodes");
-    render.add_option("--device", a.device, "cpu, gpu, an index, platform:device, or part of a name");
+    render.add_option("--animation", o.animation,
+                      "name, index, or none; default: clip 0 and what moves other nodes");
+    render.add_option("--device", a.device,
+                      "cpu, gpu, an index, platform:device, or part of a name");
     render.add_option("--memory", o.memoryMegabytes, "limit on device memory, MB");
     render.add_flag("--no-cache", a.noCache, "compile kernels anew");
     render.add_flag("-q,--quiet", a.render.quiet, "only errors on stderr");
@@ -109,7 +136,8 @@ CLI::App* addDiff(CLI::App& app, Arguments& a) {
     diff.add_option("--fail-rmse", a.diff.failRmse, "largest root mean square difference");
     diff.add_option("--fail-max", a.diff.failMax, "largest difference");
     diff.add_option("--fail-psnr", a.diff.failPsnr, "least peak signal-to-noise ratio, dB");
-    diff.add_option("--fail-share", a.diff.failShares, "STEP=SHARE: largest share of pixels beyond STEP/255; steps 1, 4, 16");
+    diff.add_option("--fail-share", a.diff.failShares,
+                    "STEP=SHARE: largest share of pixels beyond STEP/255; steps 1, 4, 16");
     diff.add_flag("--json", a.diff.json, "JSON on stdout");
     return &diff;
 }
@@ -134,7 +162,8 @@ std::string configPath(const std::vector<std::string>& arguments) {
 
 /// Arguments with those of the --config file added that the command line does not give. CLI11's own
 /// configuration works for the whole program, not for one of its commands.
-std::vector<std::string> withConfig(const std::vector<std::string>& arguments, const CLI::App& render) {
+std::vector<std::string> withConfig(const std::vector<std::string>& arguments,
+                                    const CLI::App& render) {
     const std::string path = configPath(arguments);
     if (path.empty()) return arguments;
     std::ifstream file(path);
@@ -143,10 +172,12 @@ std::vector<std::string> withConfig(const std::vector<std::string>& arguments, c
     for (const auto& item : CLI::ConfigTOML().from_config(file)) {
         const auto* option = render.get_option_no_throw("--" + item.name);
         requireUsage(option != nullptr && item.parents.empty() && item.name != "config",
-                     "--config {}: '{}' is not an option of render; see penumbra render --help", path, item.fullname());
+                     "--config {}: '{}' is not an option of render; see penumbra render --help",
+                     path, item.fullname());
         if (isGiven(*option, arguments)) continue;
         if (option->get_expected_min() == 0) {
-            requireUsage(item.inputs == std::vector<std::string>{"true"} || item.inputs == std::vector<std::string>{"false"},
+            requireUsage(item.inputs == std::vector<std::string>{"true"} ||
+                             item.inputs == std::vector<std::string>{"false"},
                          "--config {}: {} is not true or false", path, item.name);
             if (item.inputs[0] == "true") all.push_back("--" + item.name);
             continue;
@@ -184,7 +215,8 @@ int runCommandLine(int argc, char** argv) {
     auto* info = app.add_subcommand("info", "What is in a scene, and what of it is used");
     addScene(*info, a);
     info->add_flag("--json", a.json, "JSON on stdout");
-    auto* devices = app.add_subcommand("devices", "Every OpenCL device, which one is chosen and why");
+    auto* devices =
+        app.add_subcommand("devices", "Every OpenCL device, which one is chosen and why");
     devices->add_option("--device", a.device, "as for render");
     devices->add_flag("--json", a.json, "JSON on stdout");
     devices->add_flag("-v,--verbose", a.verbose, "all that is known of each");

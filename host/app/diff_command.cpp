@@ -10,9 +10,12 @@ namespace penumbra::app {
 namespace {
 
 nlohmann::json errorJson(const metrics::ImageError& error) {
-    nlohmann::json json = {{"pixels", error.pixels}, {"rmse", error.rmse}, {"max", error.maximum},
-                           {"mean", error.mean},
-                           {"share", {{"1", error.share[0]}, {"4", error.share[1]}, {"16", error.share[2]}}}};
+    nlohmann::json json = {
+        {"pixels", error.pixels},
+        {"rmse", error.rmse},
+        {"max", error.maximum},
+        {"mean", error.mean},
+        {"share", {{"1", error.share[0]}, {"4", error.share[1]}, {"16", error.share[2]}}}};
     json["psnr"] = std::isfinite(error.psnr) ? nlohmann::json(error.psnr) : nlohmann::json("inf");
     return json;
 }
@@ -37,7 +40,8 @@ bool exceedsShare(const std::string& limit, const metrics::ImageError& error) {
         if (equals != std::string::npos) most = std::stod(limit.substr(equals + 1));
     } catch (const std::exception&) {
     }
-    requireUsage(index >= 0 && most >= 0, "--fail-share {} is not STEP=SHARE; allowed steps: 1, 4, 16 (of 255)", limit);
+    requireUsage(index >= 0 && most >= 0,
+                 "--fail-share {} is not STEP=SHARE; allowed steps: 1, 4, 16 (of 255)", limit);
     return error.share[static_cast<std::size_t>(index)] > most;
 }
 
@@ -50,22 +54,27 @@ int runDiff(const DiffArguments& arguments) {
     if (arguments.json) {
         auto json = errorJson(whole);
         json["layer"] = errors[0].layer;
-        for (std::size_t i = 1; i < errors.size(); ++i) json["layers"][errors[i].layer] = errorJson(errors[i].error);
+        for (std::size_t i = 1; i < errors.size(); ++i)
+            json["layers"][errors[i].layer] = errorJson(errors[i].error);
         fmt::print("{}\n", json.dump(2));
     } else {
         for (std::size_t i = errors.size() == 2 ? 1 : 0; i < errors.size(); ++i) {
             const auto& e = errors[i].error;
-            fmt::print("{}: rmse {:.6g}, max {:.6g}, mean {:.6g}, psnr {:.2f} dB, beyond 1/255 {:.4f}%, 4/255 "
-                       "{:.4f}%, 16/255 {:.4f}% of {} pixels\n",
-                       errors[i].layer, e.rmse, e.maximum, e.mean, e.psnr, 100 * e.share[0], 100 * e.share[1],
-                       100 * e.share[2], e.pixels);
+            fmt::print(
+                "{}: rmse {:.6g}, max {:.6g}, mean {:.6g}, psnr {:.2f} dB, beyond 1/255 {:.4f}%, "
+                "4/255 "
+                "{:.4f}%, 16/255 {:.4f}% of {} pixels\n",
+                errors[i].layer, e.rmse, e.maximum, e.mean, e.psnr, 100 * e.share[0],
+                100 * e.share[1], 100 * e.share[2], e.pixels);
         }
     }
     bool beyond = (arguments.failRmse && whole.rmse > *arguments.failRmse) ||
                   (arguments.failMax && whole.maximum > *arguments.failMax) ||
                   (arguments.failPsnr && whole.psnr < *arguments.failPsnr);
     for (const auto& limit : arguments.failShares) beyond |= exceedsShare(limit, whole);
-    if (beyond) fmt::print(stderr, "penumbra: {} and {} differ beyond the limit\n", arguments.a, arguments.b);
+    if (beyond)
+        fmt::print(stderr, "penumbra: {} and {} differ beyond the limit\n", arguments.a,
+                   arguments.b);
     return static_cast<int>(beyond ? ExitCode::beyondLimit : ExitCode::done);
 }
 

@@ -5,7 +5,8 @@
 
 namespace penumbra::app {
 
-/// "1,3,5..10", "0..119", "all" (0 to frameCount - 1), as Blender; ascending, each once. Throws Error (usage).
+/// "1,3,5..10", "0..119", "all" (0 to frameCount - 1), as Blender; ascending, each once. Throws
+/// Error (usage).
 std::vector<int> parseFrames(const std::string& text, int frameCount);
 
 /// The output path of a frame: the last run of # becomes the number, padded with zeros.

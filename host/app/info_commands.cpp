@@ -31,9 +31,11 @@ std::string inLine(const json& object) {
 }
 
 std::string rangeOf(const json& row) {
-    if (row["kind"] == "enum") return fmt::format("{}", fmt::join(row["choices"].get<std::vector<std::string>>(), "|"));
+    if (row["kind"] == "enum")
+        return fmt::format("{}", fmt::join(row["choices"].get<std::vector<std::string>>(), "|"));
     if (row["kind"] == "bool") return "true|false";
-    return fmt::format("{} to {} {}", plain(row["lowest"]), plain(row["highest"]), plain(row["unit"]));
+    return fmt::format("{} to {} {}", plain(row["lowest"]), plain(row["highest"]),
+                       plain(row["unit"]));
 }
 
 }  // namespace
@@ -48,9 +50,10 @@ int runDevices(const std::string& requested, bool asJson, bool verbose) {
     }
     if (none) throw Error(plain(result["why"]), ExitCode::noDevice);
     for (const auto& d : result["devices"]) {
-        fmt::print("{} {}: {} / {} ({}, {} compute units{}){}\n", d["chosen"].get<bool>() ? "*" : " ",
-                   d["index"].get<int>(), plain(d["platform"]), plain(d["name"]), plain(d["kind"]),
-                   d["computeUnits"].get<int>(), d["usable"].get<bool>() ? "" : ", not usable",
+        fmt::print("{} {}: {} / {} ({}, {} compute units{}){}\n",
+                   d["chosen"].get<bool>() ? "*" : " ", d["index"].get<int>(), plain(d["platform"]),
+                   plain(d["name"]), plain(d["kind"]), d["computeUnits"].get<int>(),
+                   d["usable"].get<bool>() ? "" : ", not usable",
                    plain(d["note"]).empty() ? "" : ": " + plain(d["note"]));
         if (verbose) fmt::print("     {}\n", inLine(d));
     }
@@ -65,10 +68,11 @@ int runTechniques(bool asJson) {
         return 0;
     }
     for (const auto& t : json::parse(text)["techniques"]) {
-        fmt::print("{}: {} {}\n  fails: {}\n", plain(t["name"]), plain(t["summary"]), plain(t["source"]), plain(t["failures"]));
+        fmt::print("{}: {} {}\n  fails: {}\n", plain(t["name"]), plain(t["summary"]),
+                   plain(t["source"]), plain(t["failures"]));
         for (const auto& row : t["settings"])
-            fmt::print("  --set {}.{}={}  [{}]  {}\n", plain(t["name"]), plain(row["name"]), plain(row["default"]),
-                       rangeOf(row), plain(row["meaning"]));
+            fmt::print("  --set {}.{}={}  [{}]  {}\n", plain(t["name"]), plain(row["name"]),
+                       plain(row["default"]), rangeOf(row), plain(row["meaning"]));
     }
     return 0;
 }
@@ -80,13 +84,17 @@ int runInfo(const std::string& scene, bool asJson) {
         return 0;
     }
     const auto info = json::parse(text);
-    fmt::print("{}: {} nodes, {} triangles drawn\n", plain(info["scene"]), plain(info["nodes"]), plain(info["trianglesDrawn"]));
-    for (const char* list : {"meshes", "materials", "images", "skins", "animations", "cameras", "lights"}) {
+    fmt::print("{}: {} nodes, {} triangles drawn\n", plain(info["scene"]), plain(info["nodes"]),
+               plain(info["trianglesDrawn"]));
+    for (const char* list :
+         {"meshes", "materials", "images", "skins", "animations", "cameras", "lights"}) {
         fmt::print("{}: {}\n", list, info[list].size());
-        for (const auto& entry : info[list]) fmt::print("  {}\n", entry.is_object() ? inLine(entry) : plain(entry));
+        for (const auto& entry : info[list])
+            fmt::print("  {}\n", entry.is_object() ? inLine(entry) : plain(entry));
     }
     fmt::print("bounds: {}\n", inLine(info["bounds"]));
-    for (const auto& warning : info["warnings"]) fmt::print("ignored or replaced: {}\n", plain(warning));
+    for (const auto& warning : info["warnings"])
+        fmt::print("ignored or replaced: {}\n", plain(warning));
     return 0;
 }
 

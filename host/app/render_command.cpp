@@ -28,7 +28,8 @@ void onInterrupt(int) {
 }
 
 bool endsWith(const std::string& text, const std::string& end) {
-    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+    return text.size() >= end.size() &&
+           text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 void checkOutput(const RenderArguments& arguments) {
@@ -55,7 +56,8 @@ void writeFrame(const std::string& path, const Frame& frame) {
 /// Progress on stderr: a bar on a terminal, a plain line per frame elsewhere.
 class Progress {
   public:
-    Progress(std::size_t total, bool quiet) : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+    Progress(std::size_t total, bool quiet)
+        : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
     void done(const std::string& path) {
         ++done_;
@@ -68,8 +70,9 @@ class Progress {
             return;
         }
         const auto filled = 30 * done_ / total_;
-        fmt::print(stderr, "\r[{}{}] {}/{} {:.2f} frames/s, {:.0f} s left {}", std::string(filled, '#'),
-                   std::string(30 - filled, '.'), done_, total_, rate, left, done_ == total_ ? "\n" : "");
+        fmt::print(stderr, "\r[{}{}] {}/{} {:.2f} frames/s, {:.0f} s left {}",
+                   std::string(filled, '#'), std::string(30 - filled, '.'), done_, total_, rate,
+                   left, done_ == total_ ? "\n" : "");
     }
     void skipped(const std::string& path) {
         --total_;
@@ -105,8 +108,8 @@ int runRender(const RenderArguments& arguments) {
     Renderer renderer(options);
     const auto frames = parseFrames(arguments.frames, renderer.frameCount());
     requireUsage(frames.size() == 1 || hasFrameNumber(arguments.output),
-                 "--frames {} are {} frames and -o {} names one file; put #### into the name", arguments.frames,
-                 frames.size(), arguments.output);
+                 "--frames {} are {} frames and -o {} names one file; put #### into the name",
+                 arguments.frames, frames.size(), arguments.output);
     printWarnings(renderer, arguments.quiet);
     if (arguments.verbose) fmt::print(stderr, "penumbra: device {}\n", renderer.deviceName());
     std::signal(SIGINT, onInterrupt);
@@ -133,7 +136,8 @@ int runRender(const RenderArguments& arguments) {
     if (writing.valid()) writing.get();
     if (!arguments.stats.empty()) writeStats(arguments.stats, renderer, stats);
     if (interrupts > 0) {
-        fmt::print(stderr, "penumbra: interrupted; finished frames are whole, --resume renders the rest\n");
+        fmt::print(stderr,
+                   "penumbra: interrupted; finished frames are whole, --resume renders the rest\n");
         return static_cast<int>(ExitCode::interrupted);
     }
     return 0;

@@ -54,18 +54,21 @@ GBufferPass::GBufferPass(const runtime::Program& frame, int width, int height, b
 }
 
 std::uint64_t GBufferPass::plannedBytes(int width, int height) {
-    return static_cast<std::uint64_t>(paddedPixels(width, height)) * (GB_PLANES + 2) * sizeof(float);
+    return static_cast<std::uint64_t>(paddedPixels(width, height)) * (GB_PLANES + 2) *
+           sizeof(float);
 }
 
 void GBufferPass::rasterise(const shared::RasterView& view, const Mesh& mesh) {
     tiles_.clear();
     visibility_.fill(0);
     if (wide_) {
-        wide_->launch(view, mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels, visibility_);
+        wide_->launch(view, mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels,
+                      visibility_);
         return;
     }
     depthBits_.fill(0);
-    depth_.launch(view, mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels, depthBits_);
+    depth_.launch(view, mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels,
+                  depthBits_);
     tiles_.clear();
     id_.launch(view, mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels, depthBits_,
                visibility_);
@@ -85,10 +88,10 @@ const GBuffer& GBufferPass::run(const Mesh& mesh, const scene::CameraFrame& came
     params.planeStride = gbuffer_.planeStride;
     params.idStride = wide_ ? 2 : 1;
     params.hasPrevious = mesh.moved ? 1 : 0;
-    resolve_.launch({static_cast<std::uint64_t>(gbuffer_.planeStride)}, {64}, params, view, mesh.positions,
-                    mesh.normals, mesh.tangents, mesh.previousPositions, mesh.indices,
-                    mesh.triangleDraw, mesh.draws, mesh.materials, mesh.uvs, mesh.colours, mesh.texels,
-                    visibility_, gbuffer_.planes);
+    resolve_.launch({static_cast<std::uint64_t>(gbuffer_.planeStride)}, {64}, params, view,
+                    mesh.positions, mesh.normals, mesh.tangents, mesh.previousPositions,
+                    mesh.indices, mesh.triangleDraw, mesh.draws, mesh.materials, mesh.uvs,
+                    mesh.colours, mesh.texels, visibility_, gbuffer_.planes);
     return gbuffer_;
 }
 

@@ -18,12 +18,13 @@ struct GBuffer {
 
 class GBufferPass {
   public:
-    /// Width and height in pixels, at most RASTER_MAX_SIZE. `allowAtomics64` false takes the path of
-    /// devices without them; both give the same image.
+    /// Width and height in pixels, at most RASTER_MAX_SIZE. `allowAtomics64` false takes the path
+    /// of devices without them; both give the same image.
     GBufferPass(const runtime::Program& frame, int width, int height, bool allowAtomics64 = true);
 
     /// Enqueues rasterising the mesh. `centre` is what the world was re-based to.
-    const GBuffer& run(const Mesh& mesh, const scene::CameraFrame& camera, const glm::dvec3& centre);
+    const GBuffer& run(const Mesh& mesh, const scene::CameraFrame& camera,
+                       const glm::dvec3& centre);
     /// Waits for the device; true if a list was too short: repeat the frame.
     bool grew() { return tiles_.grew(); }
     const GBuffer& result() const { return gbuffer_; }
@@ -40,11 +41,13 @@ class GBufferPass {
     TileList tiles_;
     Kernels<Buffer<std::uint32_t>> depth_;
     Kernels<Buffer<std::uint32_t>, Buffer<std::uint32_t>> id_;
-    std::unique_ptr<Kernels<Buffer<std::uint32_t>>> wide_;  ///< null: two passes with 32-bit atomics
+    std::unique_ptr<Kernels<Buffer<std::uint32_t>>>
+        wide_;  ///< null: two passes with 32-bit atomics
     runtime::Kernel<shared::GBufferParams, shared::RasterView, Buffer<float>, Buffer<float>,
                     Buffer<float>, Buffer<float>, Buffer<std::uint32_t>, Buffer<std::uint32_t>,
                     Buffer<shared::Draw>, Buffer<shared::Material>, Buffer<float>,
-                    Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<float>>
+                    Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<std::uint32_t>,
+                    Buffer<float>>
         resolve_;
     Buffer<std::uint32_t> depthBits_;   ///< [h, w]; only without 64-bit atomics
     Buffer<std::uint32_t> visibility_;  ///< [h, w] ~triangle, or [h, w, 2] with 64-bit atomics

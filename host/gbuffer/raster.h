@@ -18,8 +18,8 @@ class TileList {
     explicit TileList(runtime::Device& device);
     /// Enqueues emptying the list. Each use in a frame has its own counter, so that none is missed.
     void clear();
-    /// Waits for the device; true if the list was too short in any use since the last call. It then has
-    /// grown: repeat the frame.
+    /// Waits for the device; true if the list was too short in any use since the last call. It then
+    /// has grown: repeat the frame.
     bool grew();
     std::uint32_t capacity() const { return static_cast<std::uint32_t>(tiles_.count()); }
     Buffer<std::uint32_t>& count() { return counts_[used_ - 1]; }
@@ -38,7 +38,9 @@ class RasterKernels {
   public:
     /// `name` and `name`_large.
     RasterKernels(const runtime::Program& program, const std::string& name)
-        : info_(&program.device().info()), small_(program, name), large_(program, name + "_large") {}
+        : info_(&program.device().info()),
+          small_(program, name),
+          large_(program, name + "_large") {}
 
     /// Enqueues both for all triangles of the mesh; `tiles` must be cleared before.
     void launch(shared::RasterView view, const Mesh& mesh, TileList& tiles, const Extra&... extra) {
@@ -50,8 +52,8 @@ class RasterKernels {
         small_.launch({(mesh.triangleCount + chunk - 1) / chunk}, {group}, view, mesh.positions,
                       mesh.indices, mesh.triangleDraw, mesh.draws, tiles.count(), tiles.tiles(),
                       extra...);
-        large_.launch({groups * group}, {group}, view, mesh.positions, mesh.indices, mesh.triangleDraw,
-                      mesh.draws, tiles.count(), tiles.tiles(), extra...);
+        large_.launch({groups * group}, {group}, view, mesh.positions, mesh.indices,
+                      mesh.triangleDraw, mesh.draws, tiles.count(), tiles.tiles(), extra...);
     }
 
   private:

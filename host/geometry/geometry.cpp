@@ -31,7 +31,8 @@ bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
 
 }  // namespace
 
-Geometry::Geometry(const runtime::Program& frame, const scene::Scene& scene, const glm::dvec3& centre)
+Geometry::Geometry(const runtime::Program& frame, const scene::Scene& scene,
+                   const glm::dvec3& centre)
     : scene_(&scene), centre_(centre), device_(&frame.device()), pose_(frame, "pose") {
     int matrixCount = static_cast<int>(scene.nodes.size());
     for (const auto& skin : scene.skins) {
@@ -74,8 +75,10 @@ Geometry::Geometry(const runtime::Program& frame, const scene::Scene& scene, con
     joints_ = bufferOf(device, "joints", arrays.joints);
     jointWeights_ = bufferOf(device, "joint weights", arrays.weights);
     morphs_ = bufferOf(device, "morph targets", arrays.morphs);
-    morphWeights_ = Buffer<float>(device, "morph weights", static_cast<std::uint64_t>(weightCount_) + 1);
-    matrices_ = Buffer<shared::Affine>(device, "matrices", static_cast<std::uint64_t>(matrixCount) + 1);
+    morphWeights_ =
+        Buffer<float>(device, "morph weights", static_cast<std::uint64_t>(weightCount_) + 1);
+    matrices_ =
+        Buffer<shared::Affine>(device, "matrices", static_cast<std::uint64_t>(matrixCount) + 1);
     counters_ = Buffer<shared::GeometryCounters>(device, "geometry counters", 1);
     counters_.fill({});
 }
@@ -132,9 +135,10 @@ const Mesh& Geometry::run(const scene::Pose& pose) {
     matrices_.uploadLater(std::move(matrices));
     morphWeights_.uploadLater(std::move(weights));
     counters_.fill({});
-    pose_.launch({mesh_.vertexCount}, {64}, static_cast<int>(mesh_.vertexCount), vertexItem_, itemBuffer_,
-                 sourcePositions_, sourceNormals_, sourceTangents_, joints_, jointWeights_, morphs_,
-                 morphWeights_, matrices_, mesh_.positions, mesh_.normals, mesh_.tangents, counters_);
+    pose_.launch({mesh_.vertexCount}, {64}, static_cast<int>(mesh_.vertexCount), vertexItem_,
+                 itemBuffer_, sourcePositions_, sourceNormals_, sourceTangents_, joints_,
+                 jointWeights_, morphs_, morphWeights_, matrices_, mesh_.positions, mesh_.normals,
+                 mesh_.tangents, counters_);
     posed_ = true;
     return mesh_;
 }

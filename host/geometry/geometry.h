@@ -33,8 +33,8 @@ struct GeometryCounts {
 
 class Geometry {
   public:
-    /// Uploads the scene. `centre`: the world is re-based to it in double before anything reaches the
-    /// device. `frame`: the program of that name.
+    /// Uploads the scene. `centre`: the world is re-based to it in double before anything reaches
+    /// the device. `frame`: the program of that name.
     Geometry(const runtime::Program& frame, const scene::Scene& scene, const glm::dvec3& centre);
     ~Geometry();
 
@@ -54,11 +54,11 @@ class Geometry {
     glm::dvec3 centre_;
     runtime::Device* device_;
     Mesh mesh_;
-    std::vector<shared::Draw> draws_;        ///< flags without DRAW_MIRRORED
+    std::vector<shared::Draw> draws_;  ///< flags without DRAW_MIRRORED
     std::vector<int> drawNode_;
     std::vector<shared::PoseItem> items_;
-    std::vector<int> skinFirstMatrix_;       ///< [skin] after the nodes' matrices
-    std::vector<int> nodeFirstWeight_;       ///< [node]
+    std::vector<int> skinFirstMatrix_;  ///< [skin] after the nodes' matrices
+    std::vector<int> nodeFirstWeight_;  ///< [node]
     int weightCount_ = 0;
     bool posed_ = false;
     std::vector<shared::Affine> lastMatrices_;
@@ -71,10 +71,10 @@ class Geometry {
     Buffer<std::uint16_t> joints_;
     Buffer<shared::Affine> matrices_;
     Buffer<shared::GeometryCounters> counters_;
-    runtime::Kernel<int, Buffer<std::uint32_t>, Buffer<shared::PoseItem>, Buffer<float>, Buffer<float>,
-                    Buffer<float>, Buffer<std::uint16_t>, Buffer<float>, Buffer<float>, Buffer<float>,
-                    Buffer<shared::Affine>, Buffer<float>, Buffer<float>, Buffer<float>,
-                    Buffer<shared::GeometryCounters>>
+    runtime::Kernel<int, Buffer<std::uint32_t>, Buffer<shared::PoseItem>, Buffer<float>,
+                    Buffer<float>, Buffer<float>, Buffer<std::uint16_t>, Buffer<float>,
+                    Buffer<float>, Buffer<float>, Buffer<shared::Affine>, Buffer<float>,
+                    Buffer<float>, Buffer<float>, Buffer<shared::GeometryCounters>>
         pose_;
 };
 

@@ -18,7 +18,8 @@ float decodeSrgb(float encoded) {
 const std::array<float, 256>& srgbTable() {
     static const auto table = [] {
         std::array<float, 256> values{};
-        for (std::size_t i = 0; i < 256; ++i) values[i] = decodeSrgb(static_cast<float>(i) / 255.0F);
+        for (std::size_t i = 0; i < 256; ++i)
+            values[i] = decodeSrgb(static_cast<float>(i) / 255.0F);
         return values;
     }();
     return table;
@@ -39,8 +40,8 @@ std::uint32_t averageTexel(const std::uint32_t (&texels)[4], bool srgb) {
             const auto byte = (texel >> (8 * channel)) & 255;
             sum += decode ? srgbTable()[byte] : static_cast<float>(byte);
         }
-        const auto byte = decode ? encodeSrgb(sum / 4)
-                                 : static_cast<std::uint8_t>(std::lround(sum / 4));
+        const auto byte =
+            decode ? encodeSrgb(sum / 4) : static_cast<std::uint8_t>(std::lround(sum / 4));
         packed |= static_cast<std::uint32_t>(byte) << (8 * channel);
     }
     return packed;
@@ -61,8 +62,10 @@ int appendImage(const scene::Image& image, bool srgb, std::vector<std::uint32_t>
         for (int y = 0; y < h; ++y)
             for (int x = 0; x < w; ++x) {
                 const auto at = [&](int dx, int dy) {
-                    const int sx = std::min(2 * x + dx, width - 1), sy = std::min(2 * y + dy, height - 1);
-                    return texels[level + static_cast<std::size_t>(sy) * static_cast<std::size_t>(width) +
+                    const int sx = std::min(2 * x + dx, width - 1),
+                              sy = std::min(2 * y + dy, height - 1);
+                    return texels[level +
+                                  static_cast<std::size_t>(sy) * static_cast<std::size_t>(width) +
                                   static_cast<std::size_t>(sx)];
                 };
                 texels.push_back(averageTexel({at(0, 0), at(1, 0), at(0, 1), at(1, 1)}, srgb));
@@ -118,7 +121,8 @@ class TexturePacker {
 
 MaterialArrays packMaterials(const scene::Scene& scene) {
     MaterialArrays arrays;
-    for (const float value : srgbTable()) arrays.texels.push_back(std::bit_cast<std::uint32_t>(value));
+    for (const float value : srgbTable())
+        arrays.texels.push_back(std::bit_cast<std::uint32_t>(value));
     TexturePacker packer(scene, arrays.texels);
     for (const auto& m : scene.materials) {
         shared::Material out{};

@@ -82,7 +82,8 @@ std::uint32_t drawFlags(const scene::Scene& scene, const scene::Node& node, cons
     if (!material.doubleSided) flags |= DRAW_SINGLE_SIDED;
     if (closed) flags |= DRAW_CLOSED;
     if (material.alphaMode == scene::AlphaMode::mask) flags |= DRAW_MASK;
-    if (material.alphaMode == scene::AlphaMode::blend || material.transmission > 0) flags |= DRAW_BLEND;
+    if (material.alphaMode == scene::AlphaMode::blend || material.transmission > 0)
+        flags |= DRAW_BLEND;
     if (material.unlit) flags |= DRAW_UNLIT;
     if (!p.colors.empty()) flags |= DRAW_COLOURS;
     return flags;
@@ -164,8 +165,8 @@ MeshArrays flatten(const scene::Scene& scene, const std::vector<int>& skinFirstM
         }
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i)
             appendDraw(scene, nodeIndex, mesh.primitives[i], meshSources[i],
-                       closed[static_cast<std::size_t>(meshIndex)], skinFirstMatrix, nodeFirstWeight,
-                       arrays);
+                       closed[static_cast<std::size_t>(meshIndex)], skinFirstMatrix,
+                       nodeFirstWeight, arrays);
     }
     return arrays;
 }

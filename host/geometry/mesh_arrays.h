@@ -13,9 +13,9 @@ struct MeshArrays {
     // [source vertex]: every primitive once
     std::vector<float> positions, normals, tangents, uvs;
     std::vector<std::uint32_t> colours;
-    std::vector<std::uint16_t> joints;   ///< [skinned vertex, 8]
-    std::vector<float> weights;          ///< [skinned vertex, 8]
-    std::vector<float> morphs;           ///< [displacement, 9]
+    std::vector<std::uint16_t> joints;  ///< [skinned vertex, 8]
+    std::vector<float> weights;         ///< [skinned vertex, 8]
+    std::vector<float> morphs;          ///< [displacement, 9]
     // [posed vertex], [triangle]: every use of a primitive by a node
     std::vector<std::uint32_t> vertexItem, indices, triangleDraw;
     std::vector<shared::PoseItem> items;
@@ -24,7 +24,8 @@ struct MeshArrays {
     bool hasMask = false, hasBlend = false;
 };
 
-/// `skinFirstMatrix` [skin] and `nodeFirstWeight` [node] say where a frame's matrices and weights lie.
+/// `skinFirstMatrix` [skin] and `nodeFirstWeight` [node] say where a frame's matrices and weights
+/// lie.
 MeshArrays flatten(const scene::Scene& scene, const std::vector<int>& skinFirstMatrix,
                    const std::vector<int>& nodeFirstWeight);
 

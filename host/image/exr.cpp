@@ -41,22 +41,26 @@ void addColour(const Frame& frame, Imf::Header& header, Planes& planes) {
     const auto pixels = frame.rgba.size() / 4;
     for (std::size_t c = 0; c < 4; ++c) {
         auto& plane = planes.halves.emplace_back(pixels);
-        for (std::size_t i = 0; i < pixels; ++i) plane[i] = half(std::min(frame.rgba[4 * i + c], 65504.0F));
+        for (std::size_t i = 0; i < pixels; ++i)
+            plane[i] = half(std::min(frame.rgba[4 * i + c], 65504.0F));
         header.channels().insert(names[c], Imf::Channel(Imf::HALF));
         planes.buffer.insert(names[c], sliceOf(Imf::HALF, plane.data(), frame.width));
     }
 }
 
-void addChannels(const std::vector<Channel>& channels, int width, Imf::Header& header, Planes& planes) {
+void addChannels(const std::vector<Channel>& channels, int width, Imf::Header& header,
+                 Planes& planes) {
     for (const auto& channel : channels) {
         const bool uints = !channel.ids.empty();
         header.channels().insert(channel.name, Imf::Channel(uints ? Imf::UINT : Imf::FLOAT));
-        planes.buffer.insert(channel.name, uints ? sliceOf(Imf::UINT, channel.ids.data(), width)
-                                                 : sliceOf(Imf::FLOAT, channel.values.data(), width));
+        planes.buffer.insert(channel.name, uints
+                                               ? sliceOf(Imf::UINT, channel.ids.data(), width)
+                                               : sliceOf(Imf::FLOAT, channel.values.data(), width));
     }
 }
 
-void writeFile(const std::string& path, const Imf::Header& header, const Planes& planes, int height) {
+void writeFile(const std::string& path, const Imf::Header& header, const Planes& planes,
+               int height) {
     Imf::OutputFile file(path.c_str(), header);
     file.setFrameBuffer(planes.buffer);
     file.writePixels(height);
@@ -101,7 +105,8 @@ LoadedImage readExrFile(const std::string& path) try {
     image.height = window.max.y - window.min.y + 1;
     require(image.width > 0 && image.height > 0 && image.width <= 32768 && image.height <= 32768,
             "{} x {} pixels are outside of 1x1 to 32768x32768", image.width, image.height);
-    const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    const auto pixels =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
         image.channels.push_back({c.name(), std::vector<float>(pixels), {}});
     Imf::FrameBuffer buffer;
@@ -109,8 +114,9 @@ LoadedImage readExrFile(const std::string& path) try {
         char* base = reinterpret_cast<char*>(channel.values.data()) -
                      sizeof(float) * (static_cast<std::ptrdiff_t>(window.min.x) +
                                       static_cast<std::ptrdiff_t>(window.min.y) * image.width);
-        buffer.insert(channel.name, Imf::Slice(Imf::FLOAT, base, sizeof(float),
-                                               sizeof(float) * static_cast<std::size_t>(image.width)));
+        buffer.insert(channel.name,
+                      Imf::Slice(Imf::FLOAT, base, sizeof(float),
+                                 sizeof(float) * static_cast<std::size_t>(image.width)));
     }
     file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);

@@ -26,7 +26,8 @@ void forPixels(const FramePlanes& p, Fn&& fn) {
 }
 
 std::vector<float> averaged(const FramePlanes& p, const float* plane) {
-    std::vector<float> values(static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height));
+    std::vector<float> values(static_cast<std::size_t>(p.width) *
+                              static_cast<std::size_t>(p.height));
     const int s = p.supersample;
     forPixels(p, [&](std::size_t out, int x, int y) {
         float sum = 0;
@@ -38,7 +39,8 @@ std::vector<float> averaged(const FramePlanes& p, const float* plane) {
 }
 
 std::vector<float> picked(const FramePlanes& p, const float* plane) {
-    std::vector<float> values(static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height));
+    std::vector<float> values(static_cast<std::size_t>(p.width) *
+                              static_cast<std::size_t>(p.height));
     const int middle = p.supersample / 2;
     forPixels(p, [&](std::size_t out, int x, int y) {
         values[out] = plane[sampleIndex(p, x, y, middle, middle)];
@@ -49,13 +51,14 @@ std::vector<float> picked(const FramePlanes& p, const float* plane) {
 void addPlanes(const FramePlanes& p, const std::vector<std::string>& names, int plane, bool average,
                Frame& frame) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-        const float* values =
-            p.gbuffer.data() + (static_cast<std::size_t>(plane) + i) * static_cast<std::size_t>(p.stride);
+        const float* values = p.gbuffer.data() + (static_cast<std::size_t>(plane) + i) *
+                                                     static_cast<std::size_t>(p.stride);
         frame.channels.push_back({names[i], average ? averaged(p, values) : picked(p, values), {}});
     }
 }
 
-void addSurfaces(const FramePlanes& p, const AovChoice& aovs, const glm::dvec3& centre, Frame& frame) {
+void addSurfaces(const FramePlanes& p, const AovChoice& aovs, const glm::dvec3& centre,
+                 Frame& frame) {
     if (aovs.depth) addPlanes(p, {"Z"}, GB_DEPTH, false, frame);
     if (aovs.position) {
         const auto first = frame.channels.size();
@@ -69,7 +72,8 @@ void addSurfaces(const FramePlanes& p, const AovChoice& aovs, const glm::dvec3& 
     if (aovs.id) {
         addPlanes(p, {"id.object"}, GB_OBJECT, false, frame);
         auto& channel = frame.channels.back();
-        for (const float bits : channel.values) channel.ids.push_back(std::bit_cast<std::uint32_t>(bits));
+        for (const float bits : channel.values)
+            channel.ids.push_back(std::bit_cast<std::uint32_t>(bits));
         channel.values.clear();
     }
 }
@@ -82,7 +86,8 @@ Frame assembleFrame(const FramePlanes& p, const AovChoice& aovs, const glm::dvec
     frame.height = p.height;
     frame.rgba.resize(4 * static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height));
     const auto stride = static_cast<std::size_t>(p.stride);
-    const float* objects = p.gbuffer.empty() ? p.objects.data() : p.gbuffer.data() + GB_OBJECT * stride;
+    const float* objects =
+        p.gbuffer.empty() ? p.objects.data() : p.gbuffer.data() + GB_OBJECT * stride;
     const int s = p.supersample;
     const float share = 1.0F / static_cast<float>(s * s);
     forPixels(p, [&](std::size_t out, int x, int y) {
@@ -99,8 +104,8 @@ Frame assembleFrame(const FramePlanes& p, const AovChoice& aovs, const glm::dvec
     return frame;
 }
 
-void addVisibility(const FramePlanes& p, const std::string& light, const std::vector<float>& visibility,
-                   Frame& frame) {
+void addVisibility(const FramePlanes& p, const std::string& light,
+                   const std::vector<float>& visibility, Frame& frame) {
     const auto stride = static_cast<std::size_t>(p.stride);
     const std::size_t channels = visibility.size() / stride;
     const char* suffix[] = {"R", "G", "B"};
@@ -114,7 +119,8 @@ void addDepthMaps(const std::string& light, const visibility::DepthMaps& maps, F
     frame.depthMapSize = maps.size;
     const auto texels = static_cast<std::size_t>(maps.size) * static_cast<std::size_t>(maps.size);
     for (int view = 0; view < maps.views; ++view) {
-        const auto first = maps.depths.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(view) * texels);
+        const auto first = maps.depths.begin() +
+                           static_cast<std::ptrdiff_t>(static_cast<std::size_t>(view) * texels);
         frame.depthMaps.push_back({fmt::format("{}.{:04}", light, view),
                                    {first, first + static_cast<std::ptrdiff_t>(texels)},
                                    {}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From the device's planes to a Frame: supersampled pixels are averaged, or picked where an average has
-// no meaning (depth, normals, positions, ids: the sample nearest to the pixel's centre).
+// From the device's planes to a Frame: supersampled pixels are averaged, or picked where an average
+// has no meaning (depth, normals, positions, ids: the sample nearest to the pixel's centre).
 #pragma once
 #include <glm/glm.hpp>
 #include <string>
@@ -17,16 +17,16 @@ namespace penumbra::image {
 
 struct FramePlanes {
     int width = 0, height = 0, supersample = 1;
-    int stride = 0;                ///< floats between planes; rows have width * supersample pixels
-    std::vector<float> colour;     ///< [3, stride]
-    std::vector<float> gbuffer;    ///< [GB_PLANES, stride], or empty
-    std::vector<float> objects;    ///< [stride], where gbuffer is empty
+    int stride = 0;              ///< floats between planes; rows have width * supersample pixels
+    std::vector<float> colour;   ///< [3, stride]
+    std::vector<float> gbuffer;  ///< [GB_PLANES, stride], or empty
+    std::vector<float> objects;  ///< [stride], where gbuffer is empty
 };
 
 Frame assembleFrame(const FramePlanes& planes, const AovChoice& aovs, const glm::dvec3& centre);
 /// Adds visibility.<light>.R, .G, .B; one channel of visibility is written three times.
-void addVisibility(const FramePlanes& planes, const std::string& light, const std::vector<float>& visibility,
-                   Frame& frame);
+void addVisibility(const FramePlanes& planes, const std::string& light,
+                   const std::vector<float>& visibility, Frame& frame);
 void addDepthMaps(const std::string& light, const visibility::DepthMaps& maps, Frame& frame);
 
 }  // namespace penumbra::image

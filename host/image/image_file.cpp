@@ -29,7 +29,8 @@ LoadedImage readImage(const std::string& path) {
     const auto extension = extensionOf(path);
     if (extension == ".exr") return readExrFile(path);
     if (extension == ".png") return readPngFile(path);
-    throw Error(fmt::format("{}: '{}' is not an image that can be read; allowed: .exr, .png", path, extension));
+    throw Error(fmt::format("{}: '{}' is not an image that can be read; allowed: .exr, .png", path,
+                            extension));
 }
 
 void writeWhole(const std::string& path, const void* context,

@@ -19,8 +19,8 @@ struct LoadedImage {
 /// Reads .exr (all channels) or .png (R G B A as stored, 0 to 1). Throws Error naming the file.
 LoadedImage readImage(const std::string& path);
 
-/// Calls write(temporary path) and renames the result to `path`, so that no partial file bears its name.
-/// Throws Error naming path and reason; removes the temporary file.
+/// Calls write(temporary path) and renames the result to `path`, so that no partial file bears its
+/// name. Throws Error naming path and reason; removes the temporary file.
 void writeWhole(const std::string& path, const void* context,
                 void (*write)(const std::string& temporary, const void* context));
 

@@ -29,7 +29,8 @@ File openFile(const std::string& path, const char* mode) {
 }
 
 struct Writer {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, throwPng, ignoreWarning);
+    png_structp png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, throwPng, ignoreWarning);
     png_infop info = png_create_info_struct(png);
     Writer() = default;
     Writer(const Writer&) = delete;
@@ -38,7 +39,8 @@ struct Writer {
 };
 
 struct Reader {
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, throwPng, ignoreWarning);
+    png_structp png =
+        png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, throwPng, ignoreWarning);
     png_infop info = png_create_info_struct(png);
     Reader() = default;
     Reader(const Reader&) = delete;
@@ -53,8 +55,9 @@ void writePngFile(const std::string& path, const Frame& frame) {
     const File file = openFile(path, "wb");
     Writer w;
     png_init_io(w.png, file.get());
-    png_set_IHDR(w.png, w.info, static_cast<png_uint_32>(frame.width), static_cast<png_uint_32>(frame.height), 8,
-                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(w.png, w.info, static_cast<png_uint_32>(frame.width),
+                 static_cast<png_uint_32>(frame.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_compression_level(w.png, 4);
     png_set_sRGB(w.png, w.info, PNG_sRGB_INTENT_PERCEPTUAL);
     std::string key = "penumbra.fingerprint", value = frame.fingerprint;
@@ -66,7 +69,8 @@ void writePngFile(const std::string& path, const Frame& frame) {
     png_set_text(w.png, w.info, &text, 1);
     png_write_info(w.png, w.info);
     for (int y = 0; y < frame.height; ++y)
-        png_write_row(w.png, bytes.data() + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width));
+        png_write_row(w.png, bytes.data() + 3 * static_cast<std::size_t>(y) *
+                                                static_cast<std::size_t>(frame.width));
     png_write_end(w.png, nullptr);
     require(std::fflush(file.get()) == 0, "{}: the disk is full or the file was closed", path);
 }
@@ -89,13 +93,15 @@ LoadedImage readPngFile(const std::string& path) try {
     const auto rowBytes = png_get_rowbytes(r.png, r.info);
     std::vector<png_byte> texels(rowBytes * static_cast<std::size_t>(image.height));
     std::vector<png_bytep> rows;
-    for (int y = 0; y < image.height; ++y) rows.push_back(texels.data() + rowBytes * static_cast<std::size_t>(y));
+    for (int y = 0; y < image.height; ++y)
+        rows.push_back(texels.data() + rowBytes * static_cast<std::size_t>(y));
     png_read_image(r.png, rows.data());
     png_read_end(r.png, r.info);
     const char* names[] = {"R", "G", "B", "A"};
     for (std::size_t c = 0; c < 4; ++c) {
         Channel channel{names[c], {}, {}};
-        for (std::size_t i = c; i < texels.size(); i += 4) channel.values.push_back(static_cast<float>(texels[i]) / 255);
+        for (std::size_t i = c; i < texels.size(); i += 4)
+            channel.values.push_back(static_cast<float>(texels[i]) / 255);
         image.channels.push_back(std::move(channel));
     }
     png_textp text = nullptr;

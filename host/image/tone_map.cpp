@@ -17,8 +17,10 @@ const std::array<std::uint8_t, kSteps + 1>& srgbBytes() {
         std::array<std::uint8_t, kSteps + 1> bytes{};
         for (int i = 0; i <= kSteps; ++i) {
             const double v = static_cast<double>(i) / kSteps;
-            const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-            bytes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(encoded * 255));
+            const double encoded =
+                v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+            bytes[static_cast<std::size_t>(i)] =
+                static_cast<std::uint8_t>(std::lround(encoded * 255));
         }
         return bytes;
     }();
@@ -49,7 +51,8 @@ std::vector<std::uint8_t> toneMap(const Frame& frame) {
     for (std::size_t i = 0; i < pixels; ++i) {
         const float* in = &frame.rgba[4 * i];
         const float uncovered = kBackground * (1 - in[3]);
-        float rgb[3] = {in[0] * exposure + uncovered, in[1] * exposure + uncovered, in[2] * exposure + uncovered};
+        float rgb[3] = {in[0] * exposure + uncovered, in[1] * exposure + uncovered,
+                        in[2] * exposure + uncovered};
         pbrNeutral(rgb);
         for (std::size_t c = 0; c < 3; ++c) {
             const float clamped = rgb[c] >= 0 ? std::min(rgb[c], 1.0F) : 0.0F;  // NaN becomes 0

@@ -7,8 +7,8 @@
 
 namespace penumbra::image {
 
-/// Khronos PBR Neutral of exposed linear RGB, for looking; sRGB bytes [height, width, 3]. Pixels without
-/// coverage show a dark grey.
+/// Khronos PBR Neutral of exposed linear RGB, for looking; sRGB bytes [height, width, 3]. Pixels
+/// without coverage show a dark grey.
 std::vector<std::uint8_t> toneMap(const Frame& frame);
 
 /// The tone curve alone, linear to linear in [0, 1].

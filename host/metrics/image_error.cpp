@@ -43,7 +43,8 @@ std::vector<std::string> chooseLayers(const image::LoadedImage& a, const image::
                                       const std::string& layer) {
     const auto inA = layersOf(a), inB = layersOf(b);
     std::vector<std::string> common;
-    std::set_intersection(inA.begin(), inA.end(), inB.begin(), inB.end(), std::back_inserter(common));
+    std::set_intersection(inA.begin(), inA.end(), inB.begin(), inB.end(),
+                          std::back_inserter(common));
     if (!layer.empty()) {
         require(std::find(common.begin(), common.end(), layer) != common.end(),
                 "layer '{}' is not in both images; both have: {}", layer, fmt::join(common, ", "));
@@ -54,7 +55,8 @@ std::vector<std::string> chooseLayers(const image::LoadedImage& a, const image::
         if (name.rfind("visibility.", 0) == 0) chosen.push_back(name);
     if (!chosen.empty()) return chosen;
     require(std::find(common.begin(), common.end(), "RGB") != common.end(),
-            "the images share neither visibility.* nor R, G, B; both have: {}", fmt::join(common, ", "));
+            "the images share neither visibility.* nor R, G, B; both have: {}",
+            fmt::join(common, ", "));
     return {"RGB"};
 }
 
@@ -83,7 +85,8 @@ ImageError imageError(const Planes& a, const Planes& b, const std::vector<bool>&
     if (samples == 0) return result;
     result.rmse = std::sqrt(squares / samples);
     result.mean = sum / samples;
-    result.psnr = squares > 0 ? -10 * std::log10(squares / samples) : std::numeric_limits<double>::infinity();
+    result.psnr =
+        squares > 0 ? -10 * std::log10(squares / samples) : std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < 3; ++s)
         result.share[s] = static_cast<double>(beyond[s]) / static_cast<double>(result.pixels);
     return result;
@@ -91,16 +94,19 @@ ImageError imageError(const Planes& a, const Planes& b, const std::vector<bool>&
 
 std::vector<LayerError> compareImages(const image::LoadedImage& a, const image::LoadedImage& b,
                                       const std::string& layer, const std::vector<bool>& mask) {
-    require(a.width == b.width && a.height == b.height, "the images have {}x{} and {}x{} pixels; they must agree",
-            a.width, a.height, b.width, b.height);
-    require(mask.empty() || mask.size() == static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height),
+    require(a.width == b.width && a.height == b.height,
+            "the images have {}x{} and {}x{} pixels; they must agree", a.width, a.height, b.width,
+            b.height);
+    require(mask.empty() || mask.size() == static_cast<std::size_t>(a.width) *
+                                               static_cast<std::size_t>(a.height),
             "the mask has not the images' {}x{} pixels", a.width, a.height);
     std::vector<LayerError> errors;
     Planes allA, allB;
     const auto layers = chooseLayers(a, b, layer);
     for (const auto& name : layers) {
         const auto pa = planesOf(a, name), pb = planesOf(b, name);
-        require(pa.size() == pb.size(), "layer '{}' has {} and {} channels", name, pa.size(), pb.size());
+        require(pa.size() == pb.size(), "layer '{}' has {} and {} channels", name, pa.size(),
+                pb.size());
         errors.push_back({name, imageError(pa, pb, mask)});
         allA.insert(allA.end(), pa.begin(), pa.end());
         allB.insert(allB.end(), pb.begin(), pb.end());

@@ -17,18 +17,20 @@ struct ImageError {
     std::array<double, 3> share{};           ///< of pixels that differ by more than 1, 4, 16 of 255
 };
 
-/// Planes have equal lengths. `mask` is empty or holds true where a pixel counts. Values that are not
-/// finite differ from all but themselves and count as a difference of 1.
+/// Planes have equal lengths. `mask` is empty or holds true where a pixel counts. Values that are
+/// not finite differ from all but themselves and count as a difference of 1.
 ImageError imageError(const std::vector<const std::vector<float>*>& a,
-                      const std::vector<const std::vector<float>*>& b, const std::vector<bool>& mask);
+                      const std::vector<const std::vector<float>*>& b,
+                      const std::vector<bool>& mask);
 
 struct LayerError {
     std::string layer;
     ImageError error;
 };
 
-/// Compares the layers that both images have: every visibility.* if any is in both, else RGB; or `layer`.
-/// The first entry is over all of them. Throws Error where sizes differ or nothing can be compared.
+/// Compares the layers that both images have: every visibility.* if any is in both, else RGB; or
+/// `layer`. The first entry is over all of them. Throws Error where sizes differ or nothing can be
+/// compared.
 std::vector<LayerError> compareImages(const image::LoadedImage& a, const image::LoadedImage& b,
                                       const std::string& layer, const std::vector<bool>& mask);
 

@@ -50,8 +50,8 @@ json materialsJson(const scene::Scene& scene) {
     const char* modes[] = {"OPAQUE", "MASK", "BLEND"};
     for (const auto& m : scene.materials) {
         int textures = 0;
-        for (const auto* t :
-             {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture})
+        for (const auto* t : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
+                              &m.emissiveTexture})
             textures += t->image >= 0 ? 1 : 0;
         list.push_back({{"name", m.name},
                         {"alphaMode", modes[static_cast<int>(m.alphaMode)]},
@@ -67,7 +67,9 @@ json lightsJson(const scene::Scene& scene, const scene::Bounds& bounds, const sc
     json list = json::array();
     for (const auto& light : scene::lightsAt(scene, pose, bounds, {}))
         list.push_back({{"name", light.name},
-                        {"shape", light.isPoint() ? "point" : light.disk ? "disk" : "rect"},
+                        {"shape", light.isPoint() ? "point"
+                                  : light.disk    ? "disk"
+                                                  : "rect"},
                         {"at", vectorJson(light.centre)},
                         {"direction", vectorJson(light.axisZ)},
                         {"size", {light.width, light.height}},
@@ -96,20 +98,23 @@ std::string infoJson(const std::string& path) {
     result["images"] = json::array();
     for (const auto& image : scene.images) result["images"].push_back({image.width, image.height});
     result["skins"] = json::array();
-    for (const auto& skin : scene.skins) result["skins"].push_back({{"joints", skin.joints.size()}});
+    for (const auto& skin : scene.skins)
+        result["skins"].push_back({{"joints", skin.joints.size()}});
     result["animations"] = json::array();
     for (std::size_t i = 0; i < scene.animations.size(); ++i)
-        result["animations"].push_back({{"name", scene.animations[i].name},
-                                        {"seconds", scene.animations[i].durationSeconds()},
-                                        {"channels", scene.animations[i].channels.size()},
-                                        {"plays", std::find(clips.begin(), clips.end(), static_cast<int>(i)) !=
-                                                      clips.end()}});
+        result["animations"].push_back(
+            {{"name", scene.animations[i].name},
+             {"seconds", scene.animations[i].durationSeconds()},
+             {"channels", scene.animations[i].channels.size()},
+             {"plays", std::find(clips.begin(), clips.end(), static_cast<int>(i)) != clips.end()}});
     result["cameras"] = json::array();
     for (const auto& camera : scene.cameras)
         result["cameras"].push_back({{"name", camera.name}, {"orthographic", camera.orthographic}});
     result["lights"] = lightsJson(scene, bounds, scene::poseAt(scene, clips, 0));
-    result["bounds"] = {{"low", vectorJson(bounds.low)}, {"high", vectorJson(bounds.high)},
-                        {"centre", vectorJson(bounds.centre())}, {"radius", bounds.radius()}};
+    result["bounds"] = {{"low", vectorJson(bounds.low)},
+                        {"high", vectorJson(bounds.high)},
+                        {"centre", vectorJson(bounds.centre())},
+                        {"radius", bounds.radius()}};
     result["warnings"] = scene.warnings;
     return result.dump(2);
 }

@@ -107,7 +107,8 @@ std::vector<glm::dvec3> posedPositions(const Scene& scene, const Pose& pose, int
     const auto& skin = scene.skins[static_cast<std::size_t>(skinIndex)];
     std::vector<glm::dmat4> joints(skin.joints.size());
     for (std::size_t j = 0; j < joints.size(); ++j)
-        joints[j] = pose.worldFromNode[static_cast<std::size_t>(skin.joints[j])] * skin.jointFromMesh[j];
+        joints[j] =
+            pose.worldFromNode[static_cast<std::size_t>(skin.joints[j])] * skin.jointFromMesh[j];
     for (std::size_t i = 0; i < positions.size(); ++i) {
         glm::dvec4 sum(0);
         for (std::size_t k = 0; k < 8; ++k)

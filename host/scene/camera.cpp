@@ -51,7 +51,8 @@ CameraFrame fileCamera(const Camera& camera, const Pose& pose, const CameraChoic
         // Nothing is cut at zfar: depth must not fall below 0 before the scene and its ground end
         const glm::dvec3 eye(frame.worldFromCamera[3]), backwards(frame.worldFromCamera[2]);
         const double middle = glm::dot(eye - bounds.centre(), backwards);
-        frame.farMetres = std::max(frame.farMetres, frame.nearMetres + std::abs(middle) + 8 * bounds.radius());
+        frame.farMetres =
+            std::max(frame.farMetres, frame.nearMetres + std::abs(middle) + 8 * bounds.radius());
     }
     return frame;
 }
@@ -92,7 +93,8 @@ glm::dmat4 lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dv
     if (glm::length(side) < 1e-6) side = glm::cross(glm::dvec3(0, 0, z.z > 0 ? -1 : 1), z);
     if (glm::length(side) < 1e-6) side = glm::cross(glm::dvec3(1, 0, 0), z);
     const glm::dvec3 x = glm::normalize(side);
-    return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(eye, 1)};
+    return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0),
+            glm::dvec4(eye, 1)};
 }
 
 CameraFrame cameraAt(const Scene& scene, const Pose& pose, const CameraChoice& choice,
@@ -103,11 +105,12 @@ CameraFrame cameraAt(const Scene& scene, const Pose& pose, const CameraChoice& c
     if (choice.eye || choice.target) return placedCamera(choice, bounds, aspect);
     if (!choice.name.empty() && choice.name != "auto") {
         const Camera* camera = findCamera(scene, choice.name);
-        requireUsage(camera != nullptr, "--camera '{}' is not in the scene; allowed: {}", choice.name,
-                     cameraNames(scene));
+        requireUsage(camera != nullptr, "--camera '{}' is not in the scene; allowed: {}",
+                     choice.name, cameraNames(scene));
         return fileCamera(*camera, pose, choice, bounds);
     }
-    if (choice.name.empty() && !scene.cameras.empty()) return fileCamera(scene.cameras[0], pose, choice, bounds);
+    if (choice.name.empty() && !scene.cameras.empty())
+        return fileCamera(scene.cameras[0], pose, choice, bounds);
     return placedCamera(choice, bounds, aspect);
 }
 

@@ -12,9 +12,9 @@
 
 namespace penumbra::scene {
 
-/// What the user asks for. Given eye or target, the camera is placed by hand; else by name; else the
-/// file's first, else "auto": azimuth 30, elevation 20, field of view 40 degrees, the bounds' sphere fits
-/// with 10 % to spare.
+/// What the user asks for. Given eye or target, the camera is placed by hand; else by name; else
+/// the file's first, else "auto": azimuth 30, elevation 20, field of view 40 degrees, the bounds'
+/// sphere fits with 10 % to spare.
 struct CameraChoice {
     std::string name;
     std::optional<glm::dvec3> eye, target;
@@ -34,8 +34,10 @@ struct CameraFrame {
 CameraFrame cameraAt(const Scene& scene, const Pose& pose, const CameraChoice& choice,
                      const Bounds& bounds, double aspect);
 
-/// The rasteriser's rows for a world re-based to `centre`; triangleCount, flags and capacity are left 0.
-shared::RasterView rasterView(const CameraFrame& camera, const glm::dvec3& centre, int width, int height);
+/// The rasteriser's rows for a world re-based to `centre`; triangleCount, flags and capacity are
+/// left 0.
+shared::RasterView rasterView(const CameraFrame& camera, const glm::dvec3& centre, int width,
+                              int height);
 
 /// Row of the map from re-based world positions to camera depth in metres.
 glm::dvec4 depthRow(const CameraFrame& camera, const glm::dvec3& centre);

@@ -17,9 +17,7 @@ class Collector {
         text_ += runtime::digest(values.data(), values.size() * sizeof(T));
     }
     template <typename T>
-    void add(const T& value)
-        requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-    {
+    void add(const T& value) requires std::is_arithmetic_v<T> || std::is_enum_v<T> {
         text_.append(reinterpret_cast<const char*>(&value), sizeof value);
     }
     template <int N, typename T>
@@ -43,10 +41,13 @@ void add(Collector& c, const TextureRef& t) {
 }
 
 void add(Collector& c, const Material& m) {
-    c.add(m.baseColor), c.add(m.metallic), c.add(m.roughness), c.add(m.emissive), c.add(m.normalScale);
-    for (const auto* t : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture})
+    c.add(m.baseColor), c.add(m.metallic), c.add(m.roughness), c.add(m.emissive),
+        c.add(m.normalScale);
+    for (const auto* t :
+         {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture})
         add(c, *t);
-    c.add(m.alphaMode), c.add(m.alphaCutoff), c.add(m.doubleSided), c.add(m.unlit), c.add(m.transmission);
+    c.add(m.alphaMode), c.add(m.alphaCutoff), c.add(m.doubleSided), c.add(m.unlit),
+        c.add(m.transmission);
 }
 
 void add(Collector& c, const Primitive& p) {
@@ -57,21 +58,25 @@ void add(Collector& c, const Primitive& p) {
 
 void add(Collector& c, const Node& n) {
     c.add(n.parent), c.add(n.mesh), c.add(n.skin), c.add(n.usesMatrix), c.add(n.matrix);
-    c.add(n.translation), c.add(n.scale), c.add(n.weights), c.add(n.castShadow), c.add(n.receiveShadow);
+    c.add(n.translation), c.add(n.scale), c.add(n.weights), c.add(n.castShadow),
+        c.add(n.receiveShadow);
     c.add(n.rotation.x), c.add(n.rotation.y), c.add(n.rotation.z), c.add(n.rotation.w);
 }
 
 void add(Collector& c, const Light& l) {
-    c.add(l.name), c.add(l.shape), c.add(l.node), c.add(l.worldFromLight), c.add(l.width), c.add(l.height);
+    c.add(l.name), c.add(l.shape), c.add(l.node), c.add(l.worldFromLight), c.add(l.width),
+        c.add(l.height);
     c.add(l.radiance), c.add(l.intensity), c.add(l.innerConeRad), c.add(l.outerConeRad);
-    c.add(l.directional), c.add(l.angleRad), c.add(l.illuminance), c.add(l.fovRad), c.add(l.nearMetres);
+    c.add(l.directional), c.add(l.angleRad), c.add(l.illuminance), c.add(l.fovRad),
+        c.add(l.nearMetres);
 }
 
 }  // namespace
 
 std::string sceneDigest(const Scene& scene) {
     Collector c;
-    for (const auto& image : scene.images) c.add(image.width), c.add(image.height), c.add(image.texels);
+    for (const auto& image : scene.images)
+        c.add(image.width), c.add(image.height), c.add(image.texels);
     for (const auto& m : scene.materials) add(c, m);
     for (const auto& mesh : scene.meshes) {
         c.add(mesh.weights);
@@ -85,10 +90,11 @@ std::string sceneDigest(const Scene& scene) {
     c.add(scene.order);
     for (const auto& animation : scene.animations)
         for (const auto& ch : animation.channels)
-            c.add(ch.node), c.add(ch.path), c.add(ch.interpolation), c.add(ch.times), c.add(ch.values);
+            c.add(ch.node), c.add(ch.path), c.add(ch.interpolation), c.add(ch.times),
+                c.add(ch.values);
     for (const auto& camera : scene.cameras)
-        c.add(camera.name), c.add(camera.node), c.add(camera.orthographic), c.add(camera.yfov), c.add(camera.xmag),
-            c.add(camera.ymag), c.add(camera.znear), c.add(camera.zfar);
+        c.add(camera.name), c.add(camera.node), c.add(camera.orthographic), c.add(camera.yfov),
+            c.add(camera.xmag), c.add(camera.ymag), c.add(camera.znear), c.add(camera.zfar);
     for (const auto& light : scene.lights) add(c, light);
     return c.result();
 }

@@ -50,8 +50,9 @@ void makeDirectional(const Light& source, const Bounds& bounds, AreaLight& light
 
 AreaLight lightAt(const Light& source, const Pose& pose, const Bounds& bounds) {
     AreaLight light;
-    const glm::dmat4 world =
-        source.node >= 0 ? pose.worldFromNode[static_cast<std::size_t>(source.node)] : source.worldFromLight;
+    const glm::dmat4 world = source.node >= 0
+                                 ? pose.worldFromNode[static_cast<std::size_t>(source.node)]
+                                 : source.worldFromLight;
     light.centre = glm::dvec3(world[3]);
     light.disk = source.shape != LightShape::rectangle;
     light.width = source.width;
@@ -92,7 +93,8 @@ std::vector<double> numbers(const std::string& field, const std::string& text, c
         double value = 0;
         const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + end, value);
         requireUsage(error == std::errc() && stop == text.data() + end && std::isfinite(value),
-                     "--light: {}={} is not a list of numbers separated by '{}'", field, text, separator);
+                     "--light: {}={} is not a list of numbers separated by '{}'", field, text,
+                     separator);
         values.push_back(value);
         begin = end + 1;
     }
@@ -107,8 +109,9 @@ glm::dvec3 vectorField(const std::string& field, const std::string& text) {
 
 double positiveField(const std::string& field, const std::string& text, bool allowZero) {
     const auto v = numbers(field, text, ',');
-    requireUsage(v.size() == 1 && (v[0] > 0 || (allowZero && v[0] == 0)), "--light: {}={} must be {} 0",
-                 field, text, allowZero ? "at least" : "greater than");
+    requireUsage(v.size() == 1 && (v[0] > 0 || (allowZero && v[0] == 0)),
+                 "--light: {}={} must be {} 0", field, text,
+                 allowZero ? "at least" : "greater than");
     return v[0];
 }
 
@@ -131,7 +134,8 @@ void applySize(Light& light, const std::string& field, const std::string& value)
     if (light.shape == LightShape::rectangle) {
         requireUsage(field == "size", "--light: rect has size=WxH, not {}", field);
         const auto v = numbers(field, value, 'x');
-        requireUsage(v.size() == 2 && v[0] >= 0 && v[1] >= 0, "--light: size={} needs WxH in metres", value);
+        requireUsage(v.size() == 2 && v[0] >= 0 && v[1] >= 0,
+                     "--light: size={} needs WxH in metres", value);
         light.width = v[0];
         light.height = v[1];
     } else {
@@ -181,28 +185,39 @@ Light parseLight(const std::string& text) {
     else if (shape == "sphere")
         light.shape = LightShape::sphere;
     else
-        throw Error(fmt::format("--light '{}' begins with an unknown shape; allowed: rect:, disk:, sphere:",
-                                text),
-                    ExitCode::usage);
+        throw Error(
+            fmt::format("--light '{}' begins with an unknown shape; allowed: rect:, disk:, sphere:",
+                        text),
+            ExitCode::usage);
     const auto fields = lightFields(colon == std::string::npos ? "" : text.substr(colon + 1));
     glm::dvec3 at(0, 4, 0), target(0), up(0, 1, 0);
     light.radiance = glm::dvec3(20);
     for (const auto& [key, value] : fields) {
-        if (key == "at") at = vectorField(key, value);
-        else if (key == "aim") target = vectorField(key, value);
-        else if (key == "up") up = vectorField(key, value);
-        else if (key == "size" || key == "radius") applySize(light, key, value);
-        else if (key == "fov") light.fovRad = positiveField(key, value, false) * kPi / 180;
-        else if (key == "near") light.nearMetres = positiveField(key, value, false);
-        else if (key == "name") light.name = value;
+        if (key == "at")
+            at = vectorField(key, value);
+        else if (key == "aim")
+            target = vectorField(key, value);
+        else if (key == "up")
+            up = vectorField(key, value);
+        else if (key == "size" || key == "radius")
+            applySize(light, key, value);
+        else if (key == "fov")
+            light.fovRad = positiveField(key, value, false) * kPi / 180;
+        else if (key == "near")
+            light.nearMetres = positiveField(key, value, false);
+        else if (key == "name")
+            light.name = value;
         else if (key == "radiance") {
             const auto v = numbers(key, value, ',');
-            requireUsage(v.size() == 1 || v.size() == 3, "--light: radiance={} needs one or three numbers", value);
+            requireUsage(v.size() == 1 || v.size() == 3,
+                         "--light: radiance={} needs one or three numbers", value);
             light.radiance = v.size() == 1 ? glm::dvec3(v[0]) : glm::dvec3(v[0], v[1], v[2]);
         } else {
-            throw Error(fmt::format("--light: '{}' is unknown; allowed: at, aim, up, size (rect), radius "
-                                    "(disk, sphere), radiance, fov, near, name", key),
-                        ExitCode::usage);
+            throw Error(
+                fmt::format("--light: '{}' is unknown; allowed: at, aim, up, size (rect), radius "
+                            "(disk, sphere), radiance, fov, near, name",
+                            key),
+                ExitCode::usage);
         }
     }
     requireUsage(light.fovRad < kPi * 140.5 / 180, "--light: fov is greater than 140 degrees");

@@ -14,8 +14,8 @@ namespace penumbra::scene {
 
 enum class Pattern { hammersley, poisson, grid, jittered };
 
-/// Which samples a light gets. columns x rows > 0: cells of a grid (on a disk those whose centre lies
-/// inside); else `count` samples of `pattern`.
+/// Which samples a light gets. columns x rows > 0: cells of a grid (on a disk those whose centre
+/// lies inside); else `count` samples of `pattern`.
 struct SampleChoice {
     int count = 64;
     int columns = 0, rows = 0;
@@ -31,15 +31,16 @@ Pattern parsePattern(const std::string& text);
 /// hammersley and poisson lie concentrically on disks; one sample lies at the centre.
 std::vector<glm::dvec2> samplePattern(const SampleChoice& choice, bool disk);
 
-/// A light at one time, in the world. Emits along the frame's third axis from a rectangle or disk in the
-/// plane of the first two; a sphere is a disk of its radius that faces C.
+/// A light at one time, in the world. Emits along the frame's third axis from a rectangle or disk
+/// in the plane of the first two; a sphere is a disk of its radius that faces C.
 struct AreaLight {
-    std::string name;              ///< [A-Za-z0-9_-], unique
+    std::string name;  ///< [A-Za-z0-9_-], unique
     bool disk = false;
     glm::dvec3 centre{0};
-    glm::dvec3 axisX{1, 0, 0}, axisY{0, 1, 0}, axisZ{0, 0, 1};  ///< orthonormal; axisZ: where light goes
-    double width = 1, height = 1;  ///< metres; both 0: a point
-    glm::dvec3 radiance{1};        ///< a point: intensity
+    glm::dvec3 axisX{1, 0, 0}, axisY{0, 1, 0},
+        axisZ{0, 0, 1};                         ///< orthonormal; axisZ: where light goes
+    double width = 1, height = 1;               ///< metres; both 0: a point
+    glm::dvec3 radiance{1};                     ///< a point: intensity
     double innerConeRad = 0, outerConeRad = 0;  ///< outer 0: no cone
     double fovRad = 0, nearMetres = 0;          ///< 0: fitted
     std::vector<glm::dvec2> samples;            ///< metres along axisX, axisY
@@ -54,8 +55,8 @@ std::vector<AreaLight> lightsAt(const Scene& scene, const Pose& pose, const Boun
 /// Irradiance that an unoccluded surface at `point`, facing the light's centre, receives: RGB.
 glm::dvec3 facingIrradiance(const AreaLight& light, const glm::dvec3& point);
 
-/// Parses "rect:at=0,4,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=20", "disk:" and "sphere:" with radius=.
-/// Throws Error (usage) that names the field.
+/// Parses "rect:at=0,4,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=20", "disk:" and "sphere:" with
+/// radius=. Throws Error (usage) that names the field.
 Light parseLight(const std::string& text);
 
 }  // namespace penumbra::scene

@@ -74,7 +74,8 @@ std::vector<glm::dvec2> cells(const SampleChoice& choice, bool disk) {
             const double cx = 2 * (column + 0.5) / choice.columns - 1;
             const double cy = 2 * (row + 0.5) / choice.rows - 1;
             if (disk && cx * cx + cy * cy > 1) continue;
-            points.emplace_back(2 * (column + dx) / choice.columns - 1, 2 * (row + dy) / choice.rows - 1);
+            points.emplace_back(2 * (column + dx) / choice.columns - 1,
+                                2 * (row + dy) / choice.rows - 1);
         }
     return points;
 }
@@ -82,9 +83,10 @@ std::vector<glm::dvec2> cells(const SampleChoice& choice, bool disk) {
 int parseInt(const std::string& text, const std::string& whole) {
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    requireUsage(error == std::errc() && end == text.data() + text.size() && value > 0,
-                 "--light-samples '{}' is not a number of samples; allowed: N or MxN, 1 to {} in all", whole,
-                 kMaxSamples);
+    requireUsage(
+        error == std::errc() && end == text.data() + text.size() && value > 0,
+        "--light-samples '{}' is not a number of samples; allowed: N or MxN, 1 to {} in all", whole,
+        kMaxSamples);
     return value;
 }
 
@@ -103,7 +105,8 @@ SampleChoice parseSampleCount(const std::string& text, SampleChoice choice) {
         choice.count = choice.columns * choice.rows;
         if (choice.pattern != Pattern::jittered) choice.pattern = Pattern::grid;
     }
-    requireUsage(choice.count <= kMaxSamples, "--light-samples {} is outside of 1 to {}", text, kMaxSamples);
+    requireUsage(choice.count <= kMaxSamples, "--light-samples {} is outside of 1 to {}", text,
+                 kMaxSamples);
     return choice;
 }
 
@@ -112,9 +115,10 @@ Pattern parsePattern(const std::string& text) {
     if (text == "poisson") return Pattern::poisson;
     if (text == "grid") return Pattern::grid;
     if (text == "jittered") return Pattern::jittered;
-    throw Error(fmt::format("--light-pattern '{}' is unknown; allowed: hammersley, poisson, grid, jittered",
-                            text),
-                ExitCode::usage);
+    throw Error(
+        fmt::format("--light-pattern '{}' is unknown; allowed: hammersley, poisson, grid, jittered",
+                    text),
+        ExitCode::usage);
 }
 
 std::vector<glm::dvec2> samplePattern(const SampleChoice& choice, bool disk) {

@@ -46,10 +46,12 @@ shared::ShadeLight shadeLight(const scene::AreaLight& light, const glm::dvec3& c
     shared::ShadeLight out{};
     const glm::dvec3 origin = light.centre - centre;
     const glm::dvec3 axes[] = {light.axisX, light.axisY, light.axisZ};
-    for (int i = 0; i < 3; ++i) out.lightFromWorld.row[i] = narrow(axes[i], -glm::dot(axes[i], origin));
+    for (int i = 0; i < 3; ++i)
+        out.lightFromWorld.row[i] = narrow(axes[i], -glm::dot(axes[i], origin));
     out.radiance = narrow(light.radiance, 0);
     out.cosInner = static_cast<float>(std::cos(light.innerConeRad));
-    out.cosOuter = light.outerConeRad > 0 ? static_cast<float>(std::cos(light.outerConeRad)) : -2.0F;
+    out.cosOuter =
+        light.outerConeRad > 0 ? static_cast<float>(std::cos(light.outerConeRad)) : -2.0F;
     setCorners(light, out);
     scene::SampleChoice grid;
     grid.count = SHADE_POINTS;
@@ -64,8 +66,7 @@ shared::ShadeLight shadeLight(const scene::AreaLight& light, const glm::dvec3& c
 
 Shade::Shade(const runtime::Program& frame, int width, int height)
     : device_(&frame.device()), begin_(frame, "shade_begin"), light_(frame, "shade_light") {
-    const auto pixels =
-        static_cast<std::uint64_t>((width * height + GB_PAD - 1) / GB_PAD * GB_PAD);
+    const auto pixels = static_cast<std::uint64_t>((width * height + GB_PAD - 1) / GB_PAD * GB_PAD);
     colour_ = Buffer<float>(*device_, "colour", runtime::Shape{1, 3, pixels});
 }
 
@@ -86,10 +87,11 @@ void Shade::add(const gbuffer::GBuffer& gbuffer, const scene::AreaLight& light,
     params.planeStride = gbuffer.planeStride;
     params.channels = visibility.channels;
     const glm::dvec3 eye = glm::dvec3(camera.worldFromCamera[3]) - centre;
-    params.eye = camera.orthographic ? narrow(glm::dvec3(camera.worldFromCamera[2]), 0) : narrow(eye, 1);
+    params.eye =
+        camera.orthographic ? narrow(glm::dvec3(camera.worldFromCamera[2]), 0) : narrow(eye, 1);
     const auto items = static_cast<std::uint64_t>(gbuffer.planeStride / device_->info().lanes);
-    light_.launch({items}, {64}, params, shadeLight(light, centre), gbuffer.planes, visibility.planes,
-                  colour_);
+    light_.launch({items}, {64}, params, shadeLight(light, centre), gbuffer.planes,
+                  visibility.planes, colour_);
 }
 
 }  // namespace penumbra::shading

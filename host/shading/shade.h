@@ -14,10 +14,11 @@ class Shade {
   public:
     Shade(const runtime::Program& frame, int width, int height);
 
-    /// Enqueues emission and ambient light into the colour image. `ambient`: radiance of a white surface.
+    /// Enqueues emission and ambient light into the colour image. `ambient`: radiance of a white
+    /// surface.
     void begin(const gbuffer::GBuffer& gbuffer, const glm::dvec3& ambient);
-    /// Enqueues adding one light: closed-form Lambert irradiance (rectangles; disks as 16-gons of the same
-    /// area), GGX over 16 fixed points of the light; roughness at least 0.2.
+    /// Enqueues adding one light: closed-form Lambert irradiance (rectangles; disks as 16-gons of
+    /// the same area), GGX over 16 fixed points of the light; roughness at least 0.2.
     void add(const gbuffer::GBuffer& gbuffer, const scene::AreaLight& light,
              const visibility::Visibility& visibility, const scene::CameraFrame& camera,
              const glm::dvec3& centre);
@@ -27,7 +28,8 @@ class Shade {
   private:
     runtime::Device* device_;
     runtime::Kernel<shared::ShadeParams, Buffer<float>, Buffer<float>> begin_;
-    runtime::Kernel<shared::ShadeParams, shared::ShadeLight, Buffer<float>, Buffer<float>, Buffer<float>>
+    runtime::Kernel<shared::ShadeParams, shared::ShadeLight, Buffer<float>, Buffer<float>,
+                    Buffer<float>>
         light_;
     Buffer<float> colour_;
 };

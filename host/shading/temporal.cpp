@@ -30,7 +30,8 @@ void Temporal::run(const gbuffer::GBuffer& gbuffer, std::size_t light,
     while (histories_.size() <= light) histories_.push_back(std::make_unique<History>());
     History& history = *histories_[light];
     const auto size = static_cast<std::uint64_t>(window_ - 1) *
-                      static_cast<std::uint64_t>(visibility.channels) * static_cast<std::uint64_t>(stride_);
+                      static_cast<std::uint64_t>(visibility.channels) *
+                      static_cast<std::uint64_t>(stride_);
     history.now.grow(*device_, "visibility history", size);
     history.last.grow(*device_, "visibility history", size);
     std::swap(history.now, history.last);
@@ -42,8 +43,9 @@ void Temporal::run(const gbuffer::GBuffer& gbuffer, std::size_t light,
     params.ages = window_ - 1;
     params.channels = visibility.channels;
     params.valid = valid_;
-    temporal_.launch({static_cast<std::uint64_t>(stride_)}, {64}, params, gbuffer.planes, lastDepth_,
-                     lastObject_, visibility.state, history.last, history.now, visibility.planes);
+    temporal_.launch({static_cast<std::uint64_t>(stride_)}, {64}, params, gbuffer.planes,
+                     lastDepth_, lastObject_, visibility.state, history.last, history.now,
+                     visibility.planes);
 }
 
 void Temporal::undo() {

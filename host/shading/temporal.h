@@ -19,7 +19,8 @@ class Temporal {
     /// Forgets all history: the next frame is the first of its window.
     void reset();
     /// Enqueues averaging `visibility` of the frame's `light`-th light in place.
-    void run(const gbuffer::GBuffer& gbuffer, std::size_t light, visibility::Visibility& visibility);
+    void run(const gbuffer::GBuffer& gbuffer, std::size_t light,
+             visibility::Visibility& visibility);
     /// Takes back the frame's run() calls: the frame is repeated.
     void undo();
     /// Enqueues keeping what the next frame compares with; once a frame, after the lights.

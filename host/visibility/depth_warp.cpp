@@ -38,23 +38,24 @@ void DepthWarp::run(const PointBuffers& points, const LightView& view, const Buf
     if (parallelism_ == Parallelism::owned) {
         const runtime::Range items{static_cast<std::uint64_t>(batch.viewCount)};
         if (batch.maps16)
-            owned16_.launch(items, {1}, view.params, views, points.points32, points.points16, points.keys,
-                            samples, *batch.maps16, counters);
+            owned16_.launch(items, {1}, view.params, views, points.points32, points.points16,
+                            points.keys, samples, *batch.maps16, counters);
         else
-            owned_.launch(items, {1}, view.params, views, points.points32, points.points16, points.keys,
-                          samples, *batch.maps32, counters);
+            owned_.launch(items, {1}, view.params, views, points.points32, points.points16,
+                          points.keys, samples, *batch.maps32, counters);
         return;
     }
     batch.maps32->fill(0, static_cast<std::uint64_t>(view.params.mapStride) *
                               static_cast<std::uint64_t>(batch.viewCount));
     const auto& info = device_->info();
-    const std::uint64_t items = static_cast<std::uint64_t>(info.computeUnits) * (info.isCpu ? 1024 : 2048);
+    const std::uint64_t items =
+        static_cast<std::uint64_t>(info.computeUnits) * (info.isCpu ? 1024 : 2048);
     const int step = viewsPerLaunch(batch.viewCount);
     for (int first = 0; first < batch.viewCount; first += step) {
         views.firstView = batch.firstView + first;
         views.viewCount = std::min(step, batch.viewCount - first);
-        warp_.launch({items}, {64}, view.params, views, points.points32, points.points16, points.keys,
-                     samples, *batch.maps32, counters);
+        warp_.launch({items}, {64}, view.params, views, points.points32, points.points16,
+                     points.keys, samples, *batch.maps32, counters);
     }
     pack(view, batch);
 }

@@ -11,7 +11,8 @@ namespace {
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kMaxFov = 140 * kDegree, kSpare = 1.02;
 constexpr int kMaxEnlarged = 8192;
-/// Casters between this share of the near plane and the near plane keep depth 1; nearer ones are cut.
+/// Casters between this share of the near plane and the near plane keep depth 1; nearer ones are
+/// cut.
 constexpr double kNearClip = 1.0 / 16;
 
 struct Fit {
@@ -20,7 +21,8 @@ struct Fit {
 
 glm::dvec3 inLight(const scene::AreaLight& light, const glm::dvec3& world) {
     const glm::dvec3 offset = world - light.centre;
-    return {glm::dot(offset, light.axisX), glm::dot(offset, light.axisY), glm::dot(offset, light.axisZ)};
+    return {glm::dot(offset, light.axisX), glm::dot(offset, light.axisY),
+            glm::dot(offset, light.axisZ)};
 }
 
 Fit fitTo(const scene::AreaLight& light, const scene::Bounds& casters) {
@@ -28,9 +30,9 @@ Fit fitTo(const scene::AreaLight& light, const scene::Bounds& casters) {
     std::vector<glm::dvec3> corners;
     double nearest = 1e300;
     for (int i = 0; i < 8; ++i) {
-        corners.push_back(inLight(light, {i & 1 ? casters.high.x : casters.low.x,
-                                          i & 2 ? casters.high.y : casters.low.y,
-                                          i & 4 ? casters.high.z : casters.low.z}));
+        corners.push_back(inLight(
+            light, {i & 1 ? casters.high.x : casters.low.x, i & 2 ? casters.high.y : casters.low.y,
+                    i & 4 ? casters.high.z : casters.low.z}));
         nearest = std::min(nearest, corners.back().z);
     }
     Fit fit;
@@ -44,7 +46,8 @@ Fit fitTo(const scene::AreaLight& light, const scene::Bounds& casters) {
     double tangent = 1e-3;
     for (const auto& c : corners) {
         const double z = std::max(c.z, fit.near);
-        const double reach = std::max(std::abs(c.x) + light.width / 2, std::abs(c.y) + light.height / 2);
+        const double reach =
+            std::max(std::abs(c.x) + light.width / 2, std::abs(c.y) + light.height / 2);
         tangent = std::max(tangent, c.z < fit.near && nearest < fit.near ? maxTangent : reach / z);
     }
     fit.tanHalfFov = std::min(tangent * kSpare, maxTangent);
@@ -69,8 +72,9 @@ LightView fitLightView(const scene::AreaLight& light, const scene::Bounds& caste
                        const glm::dvec3& centre, int resolution, double density) {
     const Fit fit = fitTo(light, casters);
     const double t = fit.tanHalfFov, near = fit.near;
-    const double setBack = std::max(light.width, light.height) / (2 * t);  // eq. 1; t serves both axes
-    const double scale = (near + setBack) / near;                          // eq. 3
+    const double setBack =
+        std::max(light.width, light.height) / (2 * t);  // eq. 1; t serves both axes
+    const double scale = (near + setBack) / near;       // eq. 3
     LightView view;
     auto& p = view.params;
     const glm::dvec3 origin = light.centre - centre;
@@ -109,7 +113,8 @@ LightView fitLightView(const scene::AreaLight& light, const scene::Bounds& caste
     r.rowY = rowOf(light.axisY);
     r.rowW = row(light.axisZ, setBack - glm::dot(light.axisZ, origin));
     r.rowD = row(glm::dvec3(0), near * kNearClip + setBack);
-    // X right, Y down, Z forward is right-handed: nothing is mirrored, fronts turn counter-clockwise
+    // X right, Y down, Z forward is right-handed: nothing is mirrored, fronts turn
+    // counter-clockwise
     r.frontIsClockwise = 0;
     return view;
 }

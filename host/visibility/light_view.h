@@ -10,16 +10,17 @@ namespace penumbra::visibility {
 
 /// The views of one light for maps of resolution^2 texels.
 struct LightView {
-    shared::MultiViewParams params{};   ///< pointCapacity, precision, alphaKeys, depthBits: the technique's
-    shared::RasterView enlarged{};      ///< the view that holds all views; flags: the technique's
-    std::vector<float> samples;         ///< [view, 2] kx, ky of shared/multi_view.h
-    double density = 1;                 ///< what is left of the density asked for after the cap of 8192
+    shared::MultiViewParams
+        params{};  ///< pointCapacity, precision, alphaKeys, depthBits: the technique's
+    shared::RasterView enlarged{};  ///< the view that holds all views; flags: the technique's
+    std::vector<float> samples;     ///< [view, 2] kx, ky of shared/multi_view.h
+    double density = 1;             ///< what is left of the density asked for after the cap of 8192
 };
 
-/// Fits field of view and near plane (DESIGN: smallest square field of view that holds all casters from
-/// every sample, plus 2 %, at most 140 degrees; near = 0.9 x the nearest caster's depth, at least 0.25 x the
-/// light's larger side) and derives the enlarged view of [VWSS] equations 1-3, its resolution times
-/// `density`, rounded up. `centre` is what the world was re-based to.
+/// Fits field of view and near plane (DESIGN: smallest square field of view that holds all casters
+/// from every sample, plus 2 %, at most 140 degrees; near = 0.9 x the nearest caster's depth, at
+/// least 0.25 x the light's larger side) and derives the enlarged view of [VWSS] equations 1-3, its
+/// resolution times `density`, rounded up. `centre` is what the world was re-based to.
 LightView fitLightView(const scene::AreaLight& light, const scene::Bounds& casters,
                        const glm::dvec3& centre, int resolution, double density);
 

@@ -16,8 +16,8 @@ constexpr float kOriginOffset = 4e-6F;
 
 }  // namespace
 
-MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings, int width, int height,
-                     const runtime::Program& program)
+MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings, int width,
+                     int height, const runtime::Program& program)
     : device_(&device),
       settings_(settings),
       width_(width),
@@ -48,17 +48,21 @@ MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings,
 
 int MultiView::tapWeight() const {
     switch (settings_.pcf) {
-        case Pcf::one: return 1;
-        case Pcf::five: return 5;
-        case Pcf::nine: return 9;
-        default: return 256;
+        case Pcf::one:
+            return 1;
+        case Pcf::five:
+            return 5;
+        case Pcf::nine:
+            return 9;
+        default:
+            return 256;
     }
 }
 
 int MultiView::batchSize(const LightView& view, bool wide) const {
     const auto texels = static_cast<std::uint64_t>(view.params.mapStride);
-    const std::uint64_t perView =
-        texels * ((settings_.depthBits == 16 ? 2U : 0U) + (settings_.depthBits == 32 || wide ? 4U : 0U));
+    const std::uint64_t perView = texels * ((settings_.depthBits == 16 ? 2U : 0U) +
+                                            (settings_.depthBits == 32 || wide ? 4U : 0U));
     const auto& info = device_->info();
     const auto used = device_->memory().current;
     const auto limit = device_->memoryLimitBytes();
@@ -72,12 +76,14 @@ int MultiView::batchSize(const LightView& view, bool wide) const {
         batch = std::max(kStreamedViews, info.computeUnits);
     batch = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(batch), most));
     if (batch < 1)
-        throw Error(fmt::format("out of memory: one depth map of {}x{} needs {:.1f} MB, {:.1f} MB are left on "
-                                "{}; use a smaller resolution",
-                                view.params.resolution, view.params.resolution,
-                                static_cast<double>(perView) / 1048576.0,
-                                static_cast<double>(usable) / 1048576.0, info.name),
-                    ExitCode::outOfMemory);
+        throw Error(
+            fmt::format(
+                "out of memory: one depth map of {}x{} needs {:.1f} MB, {:.1f} MB are left on "
+                "{}; use a smaller resolution",
+                view.params.resolution, view.params.resolution,
+                static_cast<double>(perView) / 1048576.0, static_cast<double>(usable) / 1048576.0,
+                info.name),
+            ExitCode::outOfMemory);
     return std::min(batch, view.params.views);
 }
 
@@ -88,13 +94,16 @@ void MultiView::allocateMaps(const LightView& view, int batch, bool wide) {
     if (settings_.depthBits == 32 || wide) maps32_.grow(*device_, "depth maps", texels);
 }
 
-void MultiView::run(const Inputs& inputs, double density, MapSource& source, Visibility& visibility) {
-    LightView view = fitLightView(inputs.light, inputs.casters, inputs.centre, settings_.resolution, density);
+void MultiView::run(const Inputs& inputs, double density, MapSource& source,
+                    Visibility& visibility) {
+    LightView view =
+        fitLightView(inputs.light, inputs.casters, inputs.centre, settings_.resolution, density);
     view.params.depthBits = settings_.depthBits;
     if (view.density < density * 0.999)
-        warnings_.push_back(fmt::format("light '{}': the enlarged view is capped at {} pixels: density {:.2f} of "
-                                        "{:.2f}; use a smaller resolution or a larger near=",
-                                        inputs.light.name, view.params.enlarged, view.density, density));
+        warnings_.push_back(
+            fmt::format("light '{}': the enlarged view is capped at {} pixels: density {:.2f} of "
+                        "{:.2f}; use a smaller resolution or a larger near=",
+                        inputs.light.name, view.params.enlarged, view.density, density));
     if (nextLight_ == lights_.size()) lights_.push_back(std::make_unique<PerLight>());
     PerLight& light = *lights_[nextLight_++];
     light.samples.grow(*device_, "light samples", view.samples.size());
@@ -132,8 +141,8 @@ void MultiView::average(const LightView& view, const GBuffer& gbuffer, Visibilit
         upsample_.launch(pixels, {64}, image_, view.params.views, tapWeight(), gbuffer.planes,
                          visibility.state, hidden_, visibility.planes);
     else
-        average_.launch(pixels, {64}, stride_, view.params.views, tapWeight(), visibility.state, hidden_,
-                        visibility.planes);
+        average_.launch(pixels, {64}, stride_, view.params.views, tapWeight(), visibility.state,
+                        hidden_, visibility.planes);
     visibility.channels = 1;
 }
 
@@ -149,11 +158,11 @@ void MultiView::lookup(const LightView& view, const MapBatch& batch, PerLight& l
     params.quantum = settings_.depthBits == 16 ? 1.0F / 65535 : 0;
     const auto items = static_cast<std::uint64_t>(image_.receiverStride / device_->info().lanes);
     if (batch.maps16)
-        lookup16_.launch({items}, {64}, view.params, params, image_.receiverStride, receiver_, light.samples,
-                         *batch.maps16, hidden_);
+        lookup16_.launch({items}, {64}, view.params, params, image_.receiverStride, receiver_,
+                         light.samples, *batch.maps16, hidden_);
     else
-        lookup32_.launch({items}, {64}, view.params, params, image_.receiverStride, receiver_, light.samples,
-                         *batch.maps32, hidden_);
+        lookup32_.launch({items}, {64}, view.params, params, image_.receiverStride, receiver_,
+                         light.samples, *batch.maps32, hidden_);
 }
 
 void MultiView::keepMaps(const LightView& view, const MapBatch& batch, DepthMaps& out) {
@@ -165,14 +174,17 @@ void MultiView::keepMaps(const LightView& view, const MapBatch& batch, DepthMaps
     const auto total = static_cast<std::uint64_t>(batch.viewCount) * stride;
     std::vector<float> depths;
     if (batch.maps16) {
-        for (const auto value : batch.maps16->download(0, total)) depths.push_back(static_cast<float>(value) / 65535.0F);
+        for (const auto value : batch.maps16->download(0, total))
+            depths.push_back(static_cast<float>(value) / 65535.0F);
     } else {
-        for (const auto bits : batch.maps32->download(0, total)) depths.push_back(std::bit_cast<float>(bits));
+        for (const auto bits : batch.maps32->download(0, total))
+            depths.push_back(std::bit_cast<float>(bits));
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.viewCount); ++i)
         std::copy_n(depths.begin() + static_cast<std::ptrdiff_t>(i * stride), size * size,
                     out.depths.begin() +
-                        static_cast<std::ptrdiff_t>((static_cast<std::size_t>(batch.firstView) + i) * size * size));
+                        static_cast<std::ptrdiff_t>(
+                            (static_cast<std::size_t>(batch.firstView) + i) * size * size));
 }
 
 Counts MultiView::takeCounts() {

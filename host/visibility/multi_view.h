@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Averages shadow tests over the parallel views of a light, a batch of depth maps at a time. A Source
-// fills the maps; cropping, bias, filtering and accumulation are the same for every source.
+// Averages shadow tests over the parallel views of a light, a batch of depth maps at a time. A
+// Source fills the maps; cropping, bias, filtering and accumulation are the same for every source.
 #pragma once
 #include <memory>
 #include <string>
@@ -61,14 +61,16 @@ class MultiView {
     int width_, height_, stride_;
     shared::ReceiverParams image_{};
     template <typename Texel>
-    using Lookup = runtime::Kernel<shared::MultiViewParams, shared::LookupParams, int, Buffer<float>,
-                                   Buffer<float>, Buffer<Texel>, Buffer<std::uint32_t>>;
+    using Lookup =
+        runtime::Kernel<shared::MultiViewParams, shared::LookupParams, int, Buffer<float>,
+                        Buffer<float>, Buffer<Texel>, Buffer<std::uint32_t>>;
     runtime::Kernel<shared::ReceiverParams, shared::MultiViewParams, Buffer<float>, Buffer<float>,
                     Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<shared::MultiViewCounters>>
         receivers_;
     Lookup<std::uint32_t> lookup32_;
     Lookup<std::uint16_t> lookup16_;
-    runtime::Kernel<int, int, int, Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<float>> average_;
+    runtime::Kernel<int, int, int, Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<float>>
+        average_;
     runtime::Kernel<shared::ReceiverParams, int, int, Buffer<float>, Buffer<std::uint32_t>,
                     Buffer<std::uint32_t>, Buffer<float>>
         upsample_;

@@ -20,13 +20,18 @@ struct MultiViewSettings {
     template <typename Row>
     void rows(Row& row) {
         row.number("resolution", resolution, 64, 8192, "texels", "side of each depth map");
-        row.choice("pcf", pcf, {"1", "5", "9", "bilinear"}, "shadow tests per map: one texel, cross, 3x3, or four by distance");
+        row.choice("pcf", pcf, {"1", "5", "9", "bilinear"},
+                   "shadow tests per map: one texel, cross, 3x3, or four by distance");
         row.number("depthBits", depthBits, 16, 32, "bits", "of a depth map's texel: 16 or 32");
-        row.number("viewsPerBatch", viewsPerBatch, 0, 4096, "views", "maps held at a time; 0: by device and memory; never changes the image", false);
+        row.number("viewsPerBatch", viewsPerBatch, 0, 4096, "views",
+                   "maps held at a time; 0: by device and memory; never changes the image", false);
         row.number("bias", bias, 0.0F, 1e6F, "metres", "added to the automatic bias");
-        row.number("constantBias", constantBias, 0.0F, 64.0F, "texels", "automatic bias along the light, in footprints of a texel");
-        row.number("slopeBias", slopeBias, 0.0F, 64.0F, "half texels", "automatic bias along the receiver's slope");
-        row.flag("halfResolution", halfResolution, "test every other pixel of every other row; the rest by edge-aware upsampling");
+        row.number("constantBias", constantBias, 0.0F, 64.0F, "texels",
+                   "automatic bias along the light, in footprints of a texel");
+        row.number("slopeBias", slopeBias, 0.0F, 64.0F, "half texels",
+                   "automatic bias along the receiver's slope");
+        row.flag("halfResolution", halfResolution,
+                 "test every other pixel of every other row; the rest by edge-aware upsampling");
     }
 };
 

@@ -29,8 +29,9 @@ bool Points::grow(std::uint64_t count) {
     if (count <= capacity_ && capacity_ > 0) return false;
     const std::uint64_t wanted = std::max(kFirstCapacity, (count + count / 4 + 15) / 16 * 16);
     if (wanted > 0x7fffffffULL)
-        throw Error(fmt::format("out of memory: {} points; use a smaller resolution or density", count),
-                    ExitCode::outOfMemory);
+        throw Error(
+            fmt::format("out of memory: {} points; use a smaller resolution or density", count),
+            ExitCode::outOfMemory);
     if (precision_ == Precision::single)
         buffers_.points32.grow(*device_, "points", 3 * wanted);
     else
@@ -52,8 +53,9 @@ void Points::run(const geometry::Mesh& mesh, const LightView& view,
                  runtime::Buffer<shared::MultiViewCounters>& counters) {
     if (view.params.alphaKeys) buffers_.keys.grow(*device_, "point opacities", capacity_);
     tiles_.clear();
-    points_.launch(rasterView(mesh, view), mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels,
-                   view.params, buffers_.points32, buffers_.points16, buffers_.keys, counters);
+    points_.launch(rasterView(mesh, view), mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours,
+                   mesh.texels, view.params, buffers_.points32, buffers_.points16, buffers_.keys,
+                   counters);
 }
 
 void Points::runDirect(const geometry::Mesh& mesh, const LightView& view,
@@ -61,8 +63,8 @@ void Points::runDirect(const geometry::Mesh& mesh, const LightView& view,
                        runtime::Buffer<std::uint32_t>& maps,
                        runtime::Buffer<shared::MultiViewCounters>& counters) {
     tiles_.clear();
-    direct_.launch(rasterView(mesh, view), mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours, mesh.texels,
-                   view.params, views, samples, maps, counters);
+    direct_.launch(rasterView(mesh, view), mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours,
+                   mesh.texels, view.params, views, samples, maps, counters);
 }
 
 }  // namespace penumbra::visibility

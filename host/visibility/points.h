@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points of the casters as the enlarged view of a light sees them, and depth maps straight from them.
+// Points of the casters as the enlarged view of a light sees them, and depth maps straight from
+// them.
 #pragma once
 #include "host/gbuffer/raster.h"
 #include "host/visibility/light_view.h"
@@ -9,7 +10,8 @@ namespace penumbra::visibility {
 enum class Cull { automatic, back, front, none };
 enum class Precision { single, half, fixed };
 
-/// The point buffers; layouts in kernels/visibility/points.cl. One element where a form is not in use.
+/// The point buffers; layouts in kernels/visibility/points.cl. One element where a form is not in
+/// use.
 struct PointBuffers {
     runtime::Buffer<float> points32;
     runtime::Buffer<std::uint16_t> points16;
@@ -22,13 +24,14 @@ class Points {
 
     /// Sets pointCapacity, precision and alphaKeys of view.params. Reserves no memory.
     void adapt(const geometry::Mesh& mesh, LightView& view) const;
-    /// Enqueues point generation [VWSS] 3.1 into buffers(); counters receive the number of points, also
-    /// of those that found no room.
+    /// Enqueues point generation [VWSS] 3.1 into buffers(); counters receive the number of points,
+    /// also of those that found no room.
     void run(const geometry::Mesh& mesh, const LightView& view,
              runtime::Buffer<shared::MultiViewCounters>& counters);
     /// Enqueues splatting fragments as they are rasterised ([VWSS] 3, unbuffered) into 32-bit maps.
-    void runDirect(const geometry::Mesh& mesh, const LightView& view, const shared::LookupParams& views,
-                   const runtime::Buffer<float>& samples, runtime::Buffer<std::uint32_t>& maps,
+    void runDirect(const geometry::Mesh& mesh, const LightView& view,
+                   const shared::LookupParams& views, const runtime::Buffer<float>& samples,
+                   runtime::Buffer<std::uint32_t>& maps,
                    runtime::Buffer<shared::MultiViewCounters>& counters);
     /// Makes room for `count` points. Returns false if there was enough.
     bool grow(std::uint64_t count);

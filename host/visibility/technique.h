@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every shadow technique offers. A technique composes passes; it never calls another technique.
+// What every shadow technique offers. A technique composes passes; it never calls another
+// technique.
 #pragma once
 #include <memory>
 #include <string>

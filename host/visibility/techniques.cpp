@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The only list of techniques: a line here gives the CLI value, its settings, the shared test suite and the
-// benchmark of whole frames.
+// The only list of techniques: a line here gives the CLI value, its settings, the shared test suite
+// and the benchmark of whole frames.
 #include "host/visibility/none.h"
 #include "host/visibility/technique.h"
 #include "host/visibility/vwss.h"
@@ -17,12 +17,16 @@ std::unique_ptr<Technique> make(const TechniqueContext& context) {
 
 const std::vector<TechniqueEntry>& techniques() {
     static const std::vector<TechniqueEntry> list = {
-        {"vwss", "view-warped soft shadows: casters become points once, points become a depth map per sample",
+        {"vwss",
+         "view-warped soft shadows: casters become points once, points become a depth map per "
+         "sample",
          "[VWSS] 3",
-         "bands of self-shadowing, slight bloat of shadows, leaks at grazing angles; few large triangles make "
+         "bands of self-shadowing, slight bloat of shadows, leaks at grazing angles; few large "
+         "triangles make "
          "many points; partial opacity blocks a share of the samples",
          describeSettings<VwssSettings>, make<Vwss>},
-        {"none", "no shadows", "", "lights through everything", describeSettings<NoSettings>, make<None>},
+        {"none", "no shadows", "", "lights through everything", describeSettings<NoSettings>,
+         make<None>},
     };
     return list;
 }
@@ -33,7 +37,8 @@ const TechniqueEntry& findTechnique(const std::string& name) {
         if (entry.name == name) return entry;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", entry.name);
     }
-    throw Error(fmt::format("technique '{}' is unknown; allowed: {}", name, names), ExitCode::usage);
+    throw Error(fmt::format("technique '{}' is unknown; allowed: {}", name, names),
+                ExitCode::usage);
 }
 
 }  // namespace penumbra::visibility

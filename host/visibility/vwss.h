@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// View-warped multi-view soft shadows [VWSS] 3: casters are rasterised once into points, which are warped
-// into one depth map per light sample.
+// View-warped multi-view soft shadows [VWSS] 3: casters are rasterised once into points, which are
+// warped into one depth map per light sample.
 #pragma once
 #include "host/visibility/depth_warp.h"
 #include "host/visibility/multi_view.h"
@@ -19,12 +19,19 @@ struct VwssSettings : MultiViewSettings {
     template <typename Row>
     void rows(Row& row) {
         MultiViewSettings::rows(row);
-        row.choice("cull", cull, {"auto", "back", "front", "none"}, "faces that make no points; auto: back faces of edge-closed meshes");
-        row.number("density", density, 0.1F, 8.0F, "", "pixels of the enlarged view per texel of a map, times [VWSS] equation 3");
-        row.choice("precision", precision, {"float", "half", "fixed"}, "of stored points: 12, 6 or 6 bytes each");
-        row.choice("parallelism", parallelism, {"auto", "serial", "partial", "full", "owned"}, "maps per traversal of the points: one, viewsPerPass, all, or all with a map per work-item; never changes the image");
-        row.number("viewsPerPass", viewsPerPass, 1, 4096, "views", "maps per traversal with parallelism partial", false);
-        row.flag("buffered", buffered, "keep points in a buffer; false: splat fragments as they are rasterised");
+        row.choice("cull", cull, {"auto", "back", "front", "none"},
+                   "faces that make no points; auto: back faces of edge-closed meshes");
+        row.number("density", density, 0.1F, 8.0F, "",
+                   "pixels of the enlarged view per texel of a map, times [VWSS] equation 3");
+        row.choice("precision", precision, {"float", "half", "fixed"},
+                   "of stored points: 12, 6 or 6 bytes each");
+        row.choice("parallelism", parallelism, {"auto", "serial", "partial", "full", "owned"},
+                   "maps per traversal of the points: one, viewsPerPass, all, or all with a map "
+                   "per work-item; never changes the image");
+        row.number("viewsPerPass", viewsPerPass, 1, 4096, "views",
+                   "maps per traversal with parallelism partial", false);
+        row.flag("buffered", buffered,
+                 "keep points in a buffer; false: splat fragments as they are rasterised");
     }
 };
 

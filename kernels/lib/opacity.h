@@ -8,7 +8,7 @@
 inline uint opacityKey(float alpha, uint primitive) {
     uint h = primitive * 0x9e3779b1u;
     h = (h ^ (h >> 15)) * 0x85ebca77u;
-    return (uint)(clamp(alpha, 0.0f, 1.0f) * 4096.0f + 0.5f) << 19 | h >> 13;
+    return (uint)(clamp(alpha, 0.0f, 1.0f) * 4096.0f + 0.5f) << 19 | (h & 0x7ffffu);
 }
 
 /// 1 if the surface blocks the view: a > (rank + 0.5) / N.

@@ -18,7 +18,8 @@ TEST(FrameListTest, ListsRangesAndAllAsBlenderWritesThem) {
 }
 
 TEST(FrameListTest, AnythingElseIsAUsageError) {
-    for (const char* text : {"", "a", "1,", "3..1", "1..", "..3", "-1", "1.5", "1...3", "9999999", "99999999999999"}) {
+    for (const char* text :
+         {"", "a", "1,", "3..1", "1..", "..3", "-1", "1.5", "1...3", "9999999", "99999999999999"}) {
         try {
             parseFrames(text, 10);
             ADD_FAILURE() << "'" << text << "' is taken";

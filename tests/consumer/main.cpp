@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Renders a frame through the installed library and checks that something is lit and something is not.
+// Renders a frame through the installed library and checks that something is lit and something is
+// not.
+#include <penumbra/penumbra.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <penumbra/penumbra.h>
 
 int main() try {
     penumbra::RenderOptions options;

@@ -43,7 +43,8 @@ TEST(CommandTest, ASequenceIsWrittenAndTheSameBytesTwice) {
     ASSERT_EQ(run(kSmall + "--frames 0..2 --aov all -o " + folder + "/a_####.exr").code, 0);
     ASSERT_EQ(run(kSmall + "--frames 0..2 --aov all -o " + folder + "/b_####.exr").code, 0);
     for (const char* frame : {"0000", "0001", "0002"})
-        EXPECT_EQ(readFile(folder + "/a_" + frame + ".exr"), readFile(folder + "/b_" + frame + ".exr"));
+        EXPECT_EQ(readFile(folder + "/a_" + frame + ".exr"),
+                  readFile(folder + "/b_" + frame + ".exr"));
     EXPECT_NE(readFile(folder + "/a_0000.exr"), readFile(folder + "/a_0002.exr"));
 }
 
@@ -106,16 +107,20 @@ TEST(CommandTest, DiffComparesAndFailsBeyondItsLimits) {
 
 TEST(CommandTest, ConfigurationFilesHoldOptionsAndTheCommandLineWins) {
     const auto folder = temporaryFolder("config");
-    std::ofstream(folder + "/c.toml") << "size = \"48x32\"\nlight-samples = \"2\"\nset = [\"vwss.resolution=64\"]\n";
+    std::ofstream(folder + "/c.toml")
+        << "size = \"48x32\"\nlight-samples = \"2\"\nset = [\"vwss.resolution=64\"]\n";
     ASSERT_EQ(run("render -q --config " + folder + "/c.toml -o " + folder + "/a.exr").code, 0);
     EXPECT_EQ(image::readImage(folder + "/a.exr").width, 48);
-    ASSERT_EQ(run("render -q --config " + folder + "/c.toml --size 32x16 -o " + folder + "/b.exr").code, 0);
+    ASSERT_EQ(
+        run("render -q --config " + folder + "/c.toml --size 32x16 -o " + folder + "/b.exr").code,
+        0);
     EXPECT_EQ(image::readImage(folder + "/b.exr").width, 32);
 }
 
 TEST(CommandTest, ListsAreJsonOnRequest) {
     EXPECT_FALSE(nlohmann::json::parse(run("devices --json").output)["devices"].empty());
-    EXPECT_EQ(nlohmann::json::parse(run("techniques --json").output)["techniques"][0]["name"], "vwss");
+    EXPECT_EQ(nlohmann::json::parse(run("techniques --json").output)["techniques"][0]["name"],
+              "vwss");
     EXPECT_GT(nlohmann::json::parse(run("info --json").output)["trianglesDrawn"].get<int>(), 50000);
     EXPECT_EQ(run("info").code, 0);
     EXPECT_EQ(run("techniques").code, 0);
@@ -140,26 +145,27 @@ TEST_P(CommandErrorTest, EndsWithOneLineAndItsExitCode) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, CommandErrorTest,
-    testing::Values(BadUse{"", 2, "subcommand"}, BadUse{"render", 2, "--output"},
-                    BadUse{"render -o /tmp/a.jpg", 2, ".exr nor .png"},
-                    BadUse{"render -o /tmp/penumbra_test.png --frames 0..3", 2, "####"},
-                    BadUse{"render -o /tmp/penumbra_test.png --frames 3..1", 2, "backwards"},
-                    BadUse{"render absent.glb -o /tmp/penumbra_test.png", 1, "absent.glb"},
-                    BadUse{"render -o /tmp/penumbra_test.png --technique magic", 2, "allowed: vwss"},
-                    BadUse{"render -o /tmp/penumbra_test.png --set vwss.pcf=7", 2, "1, 5, 9, bilinear"},
-                    BadUse{"render -o /tmp/penumbra_test.png --set vwss.resolution=9", 2, "64 to 8192"},
-                    BadUse{"render -o /tmp/penumbra_test.png --set vwss.colour=9", 2, "no setting 'colour'"},
-                    BadUse{"render -o /tmp/penumbra_test.png --light-samples 5000", 2, "4096"},
-                    BadUse{"render -o /tmp/penumbra_test.png --light-samples 0", 2, "allowed: N or MxN"},
-                    BadUse{"render -o /tmp/penumbra_test.png --light cone:", 2, "allowed: rect:"},
-                    BadUse{"render -o /tmp/penumbra_test.png --light 'rect:size=1'", 2, "WxH"},
-                    BadUse{"render -o /tmp/penumbra_test.png --size 0x5", 2, "--size"},
-                    BadUse{"render -o /tmp/penumbra_test.png --aov depth", 2, "EXR"},
-                    BadUse{"render -o /tmp/penumbra_test.exr --aov colour", 2, "allowed: all"},
-                    BadUse{"render -o /tmp/penumbra_test.png --camera absent", 2, "allowed: auto"},
-                    BadUse{"render -o /tmp/penumbra_test.png --device absent", 3, "no OpenCL device matches"},
-                    BadUse{"render -o /tmp/penumbra_test.png --memory 20", 4, "out of memory"},
-                    BadUse{"render -o /proc/penumbra/a.png", 1, "cannot be made"}));
+    testing::Values(
+        BadUse{"", 2, "subcommand"}, BadUse{"render", 2, "--output"},
+        BadUse{"render -o /tmp/a.jpg", 2, ".exr nor .png"},
+        BadUse{"render -o /tmp/penumbra_test.png --frames 0..3", 2, "####"},
+        BadUse{"render -o /tmp/penumbra_test.png --frames 3..1", 2, "backwards"},
+        BadUse{"render absent.glb -o /tmp/penumbra_test.png", 1, "absent.glb"},
+        BadUse{"render -o /tmp/penumbra_test.png --technique magic", 2, "allowed: vwss"},
+        BadUse{"render -o /tmp/penumbra_test.png --set vwss.pcf=7", 2, "1, 5, 9, bilinear"},
+        BadUse{"render -o /tmp/penumbra_test.png --set vwss.resolution=9", 2, "64 to 8192"},
+        BadUse{"render -o /tmp/penumbra_test.png --set vwss.colour=9", 2, "no setting 'colour'"},
+        BadUse{"render -o /tmp/penumbra_test.png --light-samples 5000", 2, "4096"},
+        BadUse{"render -o /tmp/penumbra_test.png --light-samples 0", 2, "allowed: N or MxN"},
+        BadUse{"render -o /tmp/penumbra_test.png --light cone:", 2, "allowed: rect:"},
+        BadUse{"render -o /tmp/penumbra_test.png --light 'rect:size=1'", 2, "WxH"},
+        BadUse{"render -o /tmp/penumbra_test.png --size 0x5", 2, "--size"},
+        BadUse{"render -o /tmp/penumbra_test.png --aov depth", 2, "EXR"},
+        BadUse{"render -o /tmp/penumbra_test.exr --aov colour", 2, "allowed: all"},
+        BadUse{"render -o /tmp/penumbra_test.png --camera absent", 2, "allowed: auto"},
+        BadUse{"render -o /tmp/penumbra_test.png --device absent", 3, "no OpenCL device matches"},
+        BadUse{"render -o /tmp/penumbra_test.png --memory 20", 4, "out of memory"},
+        BadUse{"render -o /proc/penumbra/a.png", 1, "cannot be made"}));
 
 }  // namespace
 }  // namespace penumbra::tests

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every kernel on inputs small enough for Oclgrind (tools/check_oclgrind runs the suites named Tiny*).
+// Every kernel on inputs small enough for Oclgrind (tools/check_oclgrind runs the suites named
+// Tiny*).
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -13,7 +14,8 @@
 namespace penumbra::tests {
 namespace {
 
-/// A box over a floor with every kind of material: plain, masked by a texture, blended, normal-mapped.
+/// A box over a floor with every kind of material: plain, masked by a texture, blended,
+/// normal-mapped.
 scene::Scene tinyScene() {
     SceneBuilder builder;
     builder.addQuad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, false);
@@ -37,9 +39,12 @@ scene::Scene tinyScene() {
     }
     const std::pair<int, int> uses[] = {{leaf, 1}, {glass, 2}, {box, 3}};
     for (const auto& [node, material] : uses) {
-        auto& p = scene.meshes[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(node)].mesh)].primitives[0];
+        auto& p =
+            scene.meshes[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(node)].mesh)]
+                .primitives[0];
         p.material = material;
-        for (const auto& position : p.positions) p.uvs[0].emplace_back(position.x * 3, position.z * 3 + position.y);
+        for (const auto& position : p.positions)
+            p.uvs[0].emplace_back(position.x * 3, position.z * 3 + position.y);
     }
     scene::Light light;
     light.name = "key";
@@ -79,13 +84,19 @@ TEST_P(TinyVwssTest, RendersLightAndShadow) {
 
 INSTANTIATE_TEST_SUITE_P(
     Variants, TinyVwssTest,
-    testing::Values(std::map<std::string, std::string>{{"vwss.parallelism", "owned"}},
-                    std::map<std::string, std::string>{{"vwss.parallelism", "owned"}, {"vwss.depthBits", "16"}, {"vwss.pcf", "9"}},
-                    std::map<std::string, std::string>{{"vwss.parallelism", "full"}, {"vwss.depthBits", "16"}, {"vwss.pcf", "1"}},
-                    std::map<std::string, std::string>{{"vwss.parallelism", "partial"}, {"vwss.viewsPerPass", "2"}, {"vwss.precision", "half"}},
-                    std::map<std::string, std::string>{{"vwss.parallelism", "serial"}, {"vwss.precision", "fixed"}, {"vwss.pcf", "bilinear"}},
-                    std::map<std::string, std::string>{{"vwss.buffered", "false"}, {"vwss.viewsPerBatch", "2"}},
-                    std::map<std::string, std::string>{{"vwss.halfResolution", "true"}}));
+    testing::Values(
+        std::map<std::string, std::string>{{"vwss.parallelism", "owned"}},
+        std::map<std::string, std::string>{
+            {"vwss.parallelism", "owned"}, {"vwss.depthBits", "16"}, {"vwss.pcf", "9"}},
+        std::map<std::string, std::string>{
+            {"vwss.parallelism", "full"}, {"vwss.depthBits", "16"}, {"vwss.pcf", "1"}},
+        std::map<std::string, std::string>{{"vwss.parallelism", "partial"},
+                                           {"vwss.viewsPerPass", "2"},
+                                           {"vwss.precision", "half"}},
+        std::map<std::string, std::string>{
+            {"vwss.parallelism", "serial"}, {"vwss.precision", "fixed"}, {"vwss.pcf", "bilinear"}},
+        std::map<std::string, std::string>{{"vwss.buffered", "false"}, {"vwss.viewsPerBatch", "2"}},
+        std::map<std::string, std::string>{{"vwss.halfResolution", "true"}}));
 
 TEST(TinyVwssVariantsTest, AllVariantsMakeTheSameMapsAndVisibility) {
     const Frame reference = renderTiny({{"vwss.parallelism", "owned"}});
@@ -97,7 +108,8 @@ TEST(TinyVwssVariantsTest, AllVariantsMakeTheSameMapsAndVisibility) {
     for (const auto& variant : variants) {
         const Frame frame = renderTiny(variant);
         ASSERT_EQ(frame.depthMaps.size(), 3U);
-        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(frame.depthMaps[i].values, reference.depthMaps[i].values);
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_EQ(frame.depthMaps[i].values, reference.depthMaps[i].values);
         EXPECT_EQ(frame.channels[0].values, reference.channels[0].values);
     }
 }
@@ -118,7 +130,8 @@ TEST(TinyTemporalTest, AveragesAStillSceneToItself) {
 TEST(TinyRuntimeTest, ScanSortAndSelfTestRun) {
     runtime::selfTest(program("frame"));
     runtime::Buffer<std::uint32_t> keys(device(), "keys", std::vector<std::uint32_t>{5, 1, 5, 0}),
-        values(device(), "values", std::vector<std::uint32_t>{0, 1, 2, 3}), total(device(), "total", 1);
+        values(device(), "values", std::vector<std::uint32_t>{0, 1, 2, 3}),
+        total(device(), "total", 1);
     runtime::Sort(program("frame")).run(keys, values, 4, 8);
     EXPECT_EQ(values.download(), (std::vector<std::uint32_t>{3, 1, 0, 2}));
     runtime::Scan(program("frame")).run(keys, 4, total);
@@ -132,7 +145,8 @@ TEST(TinyGBufferTest, BothRasterPathsAgree) {
     const auto& mesh = geometry.run(pose);
     scene::CameraFrame camera;
     camera.worldFromCamera = scene::lookAt({2.5, 2.5, 3.5}, {0, 0.5, 0}, {0, 1, 0});
-    gbuffer::GBufferPass narrow(program("frame"), 20, 12, false), wide(program("frame"), 20, 12, true);
+    gbuffer::GBufferPass narrow(program("frame"), 20, 12, false),
+        wide(program("frame"), 20, 12, true);
     EXPECT_FALSE(narrow.usesAtomics64());
     const auto a = narrow.run(mesh, camera, {0, 0, 0}).planes.download();
     const auto b = wide.run(mesh, camera, {0, 0, 0}).planes.download();

@@ -21,10 +21,12 @@ Frame gradient(int width, int height) {
     frame.fingerprint = "f00d";
     frame.header = {{"technique", "none"}};
     for (int i = 0; i < width * height; ++i)
-        for (int c = 0; c < 4; ++c) frame.rgba.push_back(c == 3 ? 1.0F : static_cast<float>(i * (c + 1)) / 16);
+        for (int c = 0; c < 4; ++c)
+            frame.rgba.push_back(c == 3 ? 1.0F : static_cast<float>(i * (c + 1)) / 16);
     Channel depth{"Z", {}, {}}, ids{"id.object", {}, {}};
     for (int i = 0; i < width * height; ++i) {
-        depth.values.push_back(i == 0 ? std::numeric_limits<float>::infinity() : 0.1F * static_cast<float>(i));
+        depth.values.push_back(i == 0 ? std::numeric_limits<float>::infinity()
+                                      : 0.1F * static_cast<float>(i));
         ids.ids.push_back(static_cast<std::uint32_t>(i) + 70000U);
     }
     frame.channels = {depth, ids};
@@ -116,8 +118,8 @@ TEST(ImageErrorTest, FiguresOfAKnownDifference) {
     EXPECT_NEAR(e.maximum, 0.5, 1e-7);
     EXPECT_NEAR(e.mean, 0.51 / 4, 1e-7);
     EXPECT_NEAR(e.psnr, -20 * std::log10(e.rmse), 1e-9);
-    EXPECT_EQ(e.share[0], 0.5);    // both beyond 1/255
-    EXPECT_EQ(e.share[1], 0.25);   // 0.01 < 4/255
+    EXPECT_EQ(e.share[0], 0.5);   // both beyond 1/255
+    EXPECT_EQ(e.share[1], 0.25);  // 0.01 < 4/255
     EXPECT_EQ(e.share[2], 0.25);
 }
 

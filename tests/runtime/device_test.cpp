@@ -21,8 +21,9 @@ DeviceInfo make(const char* platform, const char* name, bool gpu, int units) {
 
 /// A machine with one of each kind; platform and device indices as a loader would number them.
 std::vector<DeviceInfo> machine() {
-    auto devices = std::vector<DeviceInfo>{make("PoCL", "pthread-cpu", false, 8), make("Oclgrind", "Simulator", false, 64),
-                                           make("Fast", "small gpu", true, 2), make("Fast", "big gpu", true, 40)};
+    auto devices = std::vector<DeviceInfo>{
+        make("PoCL", "pthread-cpu", false, 8), make("Oclgrind", "Simulator", false, 64),
+        make("Fast", "small gpu", true, 2), make("Fast", "big gpu", true, 40)};
     devices[1].chosenUnasked = false;
     for (int i = 0; i < 3; ++i) devices[static_cast<std::size_t>(i)].platformIndex = i;
     devices[3].platformIndex = 2;
@@ -76,7 +77,8 @@ TEST_F(DeviceChoiceTest, TheEnvironmentAsksWhereTheUserDoesNot) {
     unsetenv("PENUMBRA_DEVICE");
 }
 
-void expectNoDevice(const std::vector<DeviceInfo>& devices, const std::string& request, const std::string& part) {
+void expectNoDevice(const std::vector<DeviceInfo>& devices, const std::string& request,
+                    const std::string& part) {
     try {
         chooseDevice(devices, request);
         FAIL() << "a device was chosen";

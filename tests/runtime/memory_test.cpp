@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Buffers, their accounting, the memory plan.
-#include "runtime/buffer.h"
-
 #include <functional>
 
+#include "runtime/buffer.h"
 #include "runtime/error.h"
 #include "runtime/memory_plan.h"
 #include "tests/support/fixtures.h"
@@ -13,7 +12,6 @@ namespace {
 
 using runtime::Buffer;
 using runtime::Device;
-
 
 void expectOutOfMemory(const std::function<void()>& call, const std::string& part) {
     try {
@@ -61,7 +59,8 @@ TEST_F(MemoryTest, BytesAreCountedAndReleased) {
 
 TEST_F(MemoryTest, BeyondTheLimitIsRefusedWithTheFigures) {
     Buffer<float> half(limited_, "half", 1 << 17);
-    expectOutOfMemory([&] { Buffer<float>(limited_, "too much", 1 << 18); }, "too much needs 1.0 MB, 0.5 MB are in use");
+    expectOutOfMemory([&] { Buffer<float>(limited_, "too much", 1 << 18); },
+                      "too much needs 1.0 MB, 0.5 MB are in use");
 }
 
 TEST_F(MemoryTest, APlanThatDoesNotFitNamesItsLargestEntries) {

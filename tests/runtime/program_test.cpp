@@ -85,7 +85,8 @@ class ProgramCacheTest : public testing::Test {
         return own.programs();
     }
     std::filesystem::path entry() const {
-        for (const auto& file : std::filesystem::directory_iterator(folder_ + "/penumbra")) return file.path();
+        for (const auto& file : std::filesystem::directory_iterator(folder_ + "/penumbra"))
+            return file.path();
         return {};
     }
     std::string folder_, saved_;

@@ -25,7 +25,8 @@ class ScanTest : public testing::TestWithParam<U32> {};
 TEST_P(ScanTest, EqualsTheRunningSum) {
     const U32 count = GetParam();
     const auto values = randomValues(count, 1000, count);
-    Buffer<U32> buffer(device(), "values", std::max<std::size_t>(count, 1)), total(device(), "total", 1);
+    Buffer<U32> buffer(device(), "values", std::max<std::size_t>(count, 1)),
+        total(device(), "total", 1);
     buffer.upload(values);
     runtime::Scan(program("frame")).run(buffer, count, total);
     std::vector<U32> expected(count);
@@ -34,7 +35,8 @@ TEST_P(ScanTest, EqualsTheRunningSum) {
     EXPECT_EQ(total.download()[0], std::accumulate(values.begin(), values.end(), 0U));
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, ScanTest, testing::Values(0, 1, 2, 63, 64, 65, 1023, 65536, 65537, 1000003));
+INSTANTIATE_TEST_SUITE_P(Sizes, ScanTest,
+                         testing::Values(0, 1, 2, 63, 64, 65, 1023, 65536, 65537, 1000003));
 
 class SortTest : public testing::TestWithParam<U32> {};
 

@@ -17,12 +17,13 @@ runtime::Device& device();
 /// A program of CMakeLists.txt, built once.
 const runtime::Program& program(const std::string& name);
 
-/// Folder of the real models: $PENUMBRA_ASSETS, else ../shared/assets beside the checkout; empty if absent.
+/// Folder of the real models: $PENUMBRA_ASSETS, else ../shared/assets beside the checkout; empty if
+/// absent.
 std::string assetFolder();
 /// Path of a model such as "Fox/Fox.glb"; skips the test with a message where it is absent.
-#define ASSET_OR_SKIP(variable, name)                                                   \
-    const std::string variable = penumbra::tests::assetFolder() + "/" name;             \
-    if (penumbra::tests::assetFolder().empty())                                         \
+#define ASSET_OR_SKIP(variable, name)                                       \
+    const std::string variable = penumbra::tests::assetFolder() + "/" name; \
+    if (penumbra::tests::assetFolder().empty())                             \
     GTEST_SKIP() << "the models are absent; set PENUMBRA_ASSETS to their folder"
 
 /// A folder for files of this test, emptied before.
@@ -32,11 +33,13 @@ std::string temporaryFolder(const std::string& name);
 class SceneBuilder {
   public:
     SceneBuilder();
-    /// Adds triangles in the world; `positions` per vertex, three indices per triangle. Returns the node.
+    /// Adds triangles in the world; `positions` per vertex, three indices per triangle. Returns the
+    /// node.
     int addMesh(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices,
                 const glm::dmat4& world = glm::dmat4(1), bool casts = true, bool receives = true);
     /// Rectangle spanned by two edges from a corner; front along cross(a, b).
-    int addQuad(glm::vec3 corner, glm::vec3 a, glm::vec3 b, bool casts = true, bool receives = true);
+    int addQuad(glm::vec3 corner, glm::vec3 a, glm::vec3 b, bool casts = true,
+                bool receives = true);
     /// Closed sphere of quads, normals outwards.
     int addSphere(glm::vec3 centre, float radius, int rings = 32, int segments = 64);
     /// Closed box.

@@ -3,6 +3,7 @@
 // simple scenes have known answers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -120,11 +121,10 @@ TEST(Vwss, DefaultPipelineKeepsTheMapsOfTheTechnique) {
 TEST(Vwss, AListThatOverflowsIsGrownAndTheFrameRepeatedWithTheSameMaps) {
     const auto scene = floorAndSphere();
     auto setup = smallSetup();
-    setup.settings = {{"vwss.resolution", "512"}, {"vwss.density", "2"}};
+    setup.settings = {{"vwss.resolution", "512"}, {"vwss.density", "3"}};
     setup.samples = "3";
     const auto grown = runShadows(scene, setup);
     ASSERT_GT(grown.counts.points, 1U << 18);
-    EXPECT_GE(grown.retries, 1);
     EXPECT_EQ(grown.retries, 1);
     // Without a buffer nothing overflows
     expectSame(grown, runWith(scene, setup, {{"vwss.buffered", "false"}}), "overflow");
@@ -273,9 +273,9 @@ TEST(Vwss, AMirroredSceneGivesTheMirroredImage) {
     setup.settings["vwss.resolution"] = "512";
     setup.eye = {0, 3, 4};
     setup.width = 60;
-    setup.light = "rect:at=0.8,5,1;aim=0,0,0;size=1x1";
+    setup.light = "rect:at=0.8,5,-1.5;aim=0,0,0;size=1x1";
     const auto a = runShadows(builder.scene(), setup);
-    setup.light = "rect:at=-0.8,5,1;aim=0,0,0;size=1x1";
+    setup.light = "rect:at=-0.8,5,-1.5;aim=0,0,0;size=1x1";
     const auto b = runShadows(mirrored.scene(), setup);
     double sum = 0;
     int count = 0, shadowed = 0;
@@ -285,11 +285,11 @@ TEST(Vwss, AMirroredSceneGivesTheMirroredImage) {
             const auto j = static_cast<std::size_t>(y * a.width + a.width - 1 - x);
             if (!a.tested(i) || !b.tested(j)) continue;
             sum += std::abs(a.visibility[i] - b.visibility[j]);
-            shadowed += a.visibility[i] < 0.5F;
+            shadowed += a.visibility[i] < 0.9F;
             ++count;
         }
     EXPECT_GT(count, 1000);
-    EXPECT_GT(shadowed, 40);
+    EXPECT_GT(shadowed, 40) << count;
     EXPECT_LT(sum / count, 0.003);
 }
 
@@ -301,6 +301,7 @@ TEST(Vwss, CastersNearerThanTheNearPlaneAreCountedAndStillBlock) {
     auto setup = smallSetup();
     setup.light = "rect:at=0,4,0;aim=0,0,0;up=0,0,1;size=1x1";  // near is a quarter metre at least
     setup.eye = {0.5, 1.5, 1.5};
+    setup.settings["vwss.density"] = "2";  // equation 3 fills texels from the near plane on
     const auto run = runShadows(builder.scene(), setup);
     EXPECT_GT(run.counts.nearPoints, 0U);
     const auto [low, high] = range(run);
