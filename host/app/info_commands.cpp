@@ -67,7 +67,8 @@ int runTechniques(bool asJson) {
         fmt::print("{}\n", text);
         return 0;
     }
-    for (const auto& t : json::parse(text)["techniques"]) {
+    const auto parsed = json::parse(text);
+    for (const auto& t : parsed["techniques"]) {
         fmt::print("{}: {} {}\n  fails: {}\n", plain(t["name"]), plain(t["summary"]),
                    plain(t["source"]), plain(t["failures"]));
         for (const auto& row : t["settings"])

@@ -52,7 +52,8 @@ class RasterKernels {
         small_.launch({(mesh.triangleCount + chunk - 1) / chunk}, {group}, view, mesh.positions,
                       mesh.indices, mesh.triangleDraw, mesh.draws, tiles.count(), tiles.tiles(),
                       extra...);
-        large_.launch({groups * group}, {group}, view, mesh.positions, mesh.indices,
+        const std::uint64_t columns = info_->isCpu ? 1 : RASTER_TILE;
+        large_.launch({groups * columns}, {columns}, view, mesh.positions, mesh.indices,
                       mesh.triangleDraw, mesh.draws, tiles.count(), tiles.tiles(), extra...);
     }
 

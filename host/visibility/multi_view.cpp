@@ -20,8 +20,6 @@ MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings,
                      int height, const runtime::Program& program)
     : device_(&device),
       settings_(settings),
-      width_(width),
-      height_(height),
       stride_((width * height + GB_PAD - 1) / GB_PAD * GB_PAD),
       receivers_(program, "receivers"),
       lookup32_(program, "map_lookup"),

@@ -58,7 +58,7 @@ class MultiView {
 
     runtime::Device* device_;
     MultiViewSettings settings_;
-    int width_, height_, stride_;
+    int stride_;
     shared::ReceiverParams image_{};
     template <typename Texel>
     using Lookup =

@@ -89,7 +89,7 @@ kernel void RASTER_KERNEL(const RasterView view, global const float* restrict po
     RASTER_END
 }
 
-/// Work-groups take the listed tiles in turn; their work-items share a tile's pixels.
+/// Work-groups take the listed tiles in turn; their work-items share a tile's columns.
 kernel void RASTER_KERNEL_LARGE(const RasterView view, global const float* restrict positions,
                                 global const uint* restrict indices,
                                 global const uint* restrict triangleDraw,
@@ -121,15 +121,19 @@ kernel void RASTER_KERNEL_LARGE(const RasterView view, global const float* restr
         }
         if (outside) continue;
         RASTER_TRIANGLE
-        const int columns = maxX - minX + 1, pixels = columns * (maxY - minY + 1);
-        for (int pixel = (int)get_local_id(0); pixel < pixels; pixel += (int)get_local_size(0)) {
-            const int x = minX + pixel % columns, y = minY + pixel / columns;
-            const int e0 = base[0] + t.edge[0].a * (x - left) + t.edge[0].b * (y - top);
-            const int e1 = base[1] + t.edge[1].a * (x - left) + t.edge[1].b * (y - top);
-            const int e2 = base[2] + t.edge[2].a * (x - left) + t.edge[2].b * (y - top);
-            if ((e0 | e1 | e2) >= 0) {
-                const float depth = rasterDepth(&t, x, y);
-                RASTER_FRAGMENT
+        const int step = (int)get_local_size(0), first = minX + (int)get_local_id(0);
+        for (int y = minY; y <= maxY; ++y) {
+            int e0 = base[0] + t.edge[0].a * (first - left) + t.edge[0].b * (y - top);
+            int e1 = base[1] + t.edge[1].a * (first - left) + t.edge[1].b * (y - top);
+            int e2 = base[2] + t.edge[2].a * (first - left) + t.edge[2].b * (y - top);
+            for (int x = first; x <= maxX; x += step) {
+                if ((e0 | e1 | e2) >= 0) {
+                    const float depth = rasterDepth(&t, x, y);
+                    RASTER_FRAGMENT
+                }
+                e0 += t.edge[0].a * step;
+                e1 += t.edge[1].a * step;
+                e2 += t.edge[2].a * step;
             }
         }
     }

@@ -7,7 +7,8 @@ inline VI LANES_JOIN(LOOKUP_KERNEL, _hides)(global const LOOKUP_TEXEL* restrict 
     const VI inside = V_MASK(column >= 0) & V_MASK(column < size) & V_MASK(row >= 0) & V_MASK(row < size);
     const VI texel = V_SELECT((VI)(size * size), row * size + column, inside);
     const VF depth = LOOKUP_DEPTH(V_GATHER_(VU, map, texel));
-    return V_MASK(depth > reference) & inside;
+    // Where the receiver's plane ends at its horizon, `reference` is negative: empty texels hide nothing
+    return V_MASK(depth > max(reference, (VF)0.0f)) & inside;
 }
 
 /// One work-item per LANES pixels: adds the hidden tests of the launch's views to hidden [stride].

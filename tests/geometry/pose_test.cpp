@@ -86,13 +86,13 @@ void addSkin(scene::Scene& scene, unsigned seed, const glm::dvec3& shift = glm::
     for (std::size_t i = 0; i < p.positions.size(); ++i) {
         std::array<std::uint16_t, 8> joints{};
         std::array<float, 8> weights{};
-        double sum = 0;
+        int left = 256;  // weights are binary fractions: their sum is 1 to the bit
         for (std::size_t k = 0; k < 8; ++k) {
             joints[k] = static_cast<std::uint16_t>(random() % 10);
-            weights[k] = static_cast<float>(unit(random));
-            sum += weights[k];
+            const int share = k == 7 ? left : static_cast<int>(random() % 60);
+            weights[k] = static_cast<float>(std::min(share, left)) / 256;
+            left -= std::min(share, left);
         }
-        for (auto& w : weights) w = static_cast<float>(w / sum);
         p.joints.push_back(joints);
         p.weights.push_back(weights);
     }

@@ -237,6 +237,22 @@ TEST(VwssEmbree, FlatTiltedAndRoundSurfacesDoNotShadowThemselves) {
         }
 }
 
+TEST(VwssEmbree, AFloorAtGrazingLightIsAsLitAsTheLightIsAboveIt) {
+    SceneBuilder builder;
+    builder.addQuad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2});
+    for (const char* pcf : {"1", "5", "9", "bilinear"}) {
+        ShadowSetup setup;
+        setup.light = "rect:at=6,0.15,0;aim=0,0,0;size=1x1";
+        setup.eye = {1, 2, 2};
+        setup.settings = {{"vwss.pcf", pcf}, {"vwss.resolution", "256"}};
+        const auto run = runShadows(builder.scene(), setup);
+        const auto truth = tracedVisibility(builder.scene(), run);
+        EXPECT_LT(rmse(run, truth), 1e-4) << pcf;
+        const auto middle = run.pixels() / 2 + static_cast<std::size_t>(run.width) / 2;
+        EXPECT_NEAR(truth[middle], 0.65, 0.1);  // a third of the light is below the floor
+    }
+}
+
 TEST(VwssEmbree, WithoutBiasAFloorWouldShadowItself) {
     SceneBuilder tilted;
     tilted.addQuad({-1.5F, -1, 1.5F}, {3, 0, 0}, {0, 2, -3});
