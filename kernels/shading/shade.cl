@@ -72,7 +72,7 @@ inline void reflection(const ShadeLight* light, ShadeSurface s, V3 view, VF* f0P
                          nv * sqrt(fma(nl * nl, 1.0f - alpha2, alpha2));
         const VF lobe = alpha2 * 0.31830989f / (d * d) * 0.5f / max(smith, (VF)1e-6f);
         // Solid angle of the point's share of the light, one-sided
-        const VF share = light->corners > 0 ? max(-l.z, (VF)0.0f) * light->area / squared : 16.0f / squared;
+        const VF share = light->corners > 0 ? max(-l.z, (VF)0.0f) * light->area / squared : 1.0f / squared;
         const VF weight = lobe * nl * share * (1.0f / SHADE_POINTS);
         const VF c = 1.0f - vh, fresnel = c * c * c * c * c;
         sum0 += weight * (1.0f - fresnel);
