@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// JSON with device, driver and version: penumbra_bench --benchmark_out=FILE --benchmark_out_format=json
+// JSON with device, driver and version: penumbra_bench --benchmark_out=FILE
+// --benchmark_out_format=json
 #include "bench/support/bench.h"
 #include "host/penumbra.h"
 

@@ -9,7 +9,8 @@
 namespace penumbra::bench {
 namespace {
 
-void wholeFrame(benchmark::State& state, const std::string& technique, SettingValues settings, int samples) {
+void wholeFrame(benchmark::State& state, const std::string& technique, SettingValues settings,
+                int samples) {
     RenderOptions options;
     options.technique = technique;
     options.settings = std::move(settings);
@@ -28,19 +29,24 @@ void wholeFrame(benchmark::State& state, const std::string& technique, SettingVa
         }
         state.SetIterationTime(1e-3 * ms);
     }
-    for (const auto& [name, ms] : stages) state.counters[name] = ms / static_cast<double>(state.iterations());
+    for (const auto& [name, ms] : stages)
+        state.counters[name] = ms / static_cast<double>(state.iterations());
     state.SetItemsProcessed(state.iterations() * 1280 * 720);
     state.SetLabel(pipeline.device().info().name);
 }
 
 const int registered = [] {
-    const auto add = [](const std::string& name, const std::string& technique, const SettingValues& settings, int samples) {
-        benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { wholeFrame(state, technique, settings, samples); })
+    const auto add = [](const std::string& name, const std::string& technique,
+                        const SettingValues& settings, int samples) {
+        benchmark::RegisterBenchmark(
+            name.c_str(),
+            [=](benchmark::State& state) { wholeFrame(state, technique, settings, samples); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond);
     };
     for (const auto& entry : visibility::techniques())
-        for (const int samples : {24, 128}) add(fmt::format("frame/{}/samples:{}", entry.name, samples), entry.name, {}, samples);
+        for (const int samples : {24, 128})
+            add(fmt::format("frame/{}/samples:{}", entry.name, samples), entry.name, {}, samples);
     add("frame/vwss/samples:24/16bit", "vwss", {{"vwss.depthBits", "16"}}, 24);
     add("frame/vwss/samples:24/pcf1", "vwss", {{"vwss.pcf", "1"}}, 24);
     add("frame/vwss/samples:24/half", "vwss", {{"vwss.halfResolution", "true"}}, 24);

@@ -198,8 +198,7 @@ void Pipeline::makePasses() {
             "a share of the light samples by their opacity");
     shade_ = std::make_unique<shading::Shade>(*program_, width_, height_);
     temporal_ = std::make_unique<shading::Temporal>(*program_, width_, height_, options_.temporal);
-    const auto pixels =
-        static_cast<std::uint64_t>((width_ * height_ + GB_PAD - 1) / GB_PAD * GB_PAD);
+    const auto pixels = static_cast<std::uint64_t>(shared::gbufferStride(width_ * height_));
     visibility_.planes =
         runtime::Buffer<float>(*device_, "visibility", runtime::Shape{1, 1, pixels});
     visibility_.state = runtime::Buffer<std::uint32_t>(*device_, "pixel states", pixels);

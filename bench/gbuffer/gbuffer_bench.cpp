@@ -15,15 +15,18 @@ scene::Scene triangleGrid(int pixels, int layers) {
     for (int layer = 0; layer < layers; ++layer)
         for (int y = 0; y < cells; ++y)
             for (int x = 0; x < cells; ++x) {
-                const float s = 2.0F / static_cast<float>(cells), z = -0.01F * static_cast<float>(layer);
-                const float x0 = -1 + s * static_cast<float>(x), y0 = -1 + s * static_cast<float>(y);
+                const float s = 2.0F / static_cast<float>(cells),
+                            z = -0.01F * static_cast<float>(layer);
+                const float x0 = -1 + s * static_cast<float>(x),
+                            y0 = -1 + s * static_cast<float>(y);
                 const auto base = static_cast<std::uint32_t>(p.positions.size());
-                for (const glm::vec3 v : {glm::vec3(x0, y0, z), glm::vec3(x0 + s, y0, z), glm::vec3(x0 + s, y0 + s, z),
-                                          glm::vec3(x0, y0 + s, z)}) {
+                for (const glm::vec3 v : {glm::vec3(x0, y0, z), glm::vec3(x0 + s, y0, z),
+                                          glm::vec3(x0 + s, y0 + s, z), glm::vec3(x0, y0 + s, z)}) {
                     p.positions.push_back(v);
                     p.normals.emplace_back(0, 0, 1);
                 }
-                for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) p.indices.push_back(base + i);
+                for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U})
+                    p.indices.push_back(base + i);
             }
     scene.meshes.push_back({"grid", {p}, {}});
     scene::Node node;

@@ -10,7 +10,8 @@ void pose(benchmark::State& state) {
     auto& posed = builtinScene();
     const auto clips = scene::chooseAnimations(posed.scene, "");
     double seconds = 0;
-    measure(state, [&] { posed.geometry->run(scene::poseAt(posed.scene, clips, seconds += 0.01)); });
+    measure(state,
+            [&] { posed.geometry->run(scene::poseAt(posed.scene, clips, seconds += 0.01)); });
     const auto vertices = static_cast<std::int64_t>(posed.mesh().vertexCount);
     state.SetItemsProcessed(state.iterations() * vertices);
     state.SetBytesProcessed(state.iterations() * vertices * 10 * 4);

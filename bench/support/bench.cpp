@@ -46,7 +46,8 @@ PosedScene& builtinScene() {
         p->scene = scene::loadBuiltinScene();
         const auto clips = scene::chooseAnimations(p->scene, "");
         p->bounds = scene::clipBounds(p->scene, clips);
-        p->geometry = std::make_unique<geometry::Geometry>(program("frame"), p->scene, p->bounds.centre());
+        p->geometry =
+            std::make_unique<geometry::Geometry>(program("frame"), p->scene, p->bounds.centre());
         p->geometry->run(scene::poseAt(p->scene, clips, 0.25));
         return p;
     }();

@@ -23,7 +23,8 @@ const runtime::Program& program(const std::string& name);
 /// Milliseconds on the device of all that `work` enqueues.
 double deviceMs(const std::function<void()>& work);
 
-/// Runs `work` until the benchmark has enough: device time, device name as label. Runs it once before.
+/// Runs `work` until the benchmark has enough: device time, device name as label. Runs it once
+/// before.
 void measure(benchmark::State& state, const std::function<void()>& work);
 
 /// The built-in scene, posed on the device.

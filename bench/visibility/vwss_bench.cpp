@@ -21,7 +21,9 @@ struct Splat {
           points(program("multi_view"), Cull::automatic, Precision::single),
           samples(device(), "samples", view.samples),
           counters(device(), "counters", 1),
-          maps(device(), "maps", static_cast<std::uint64_t>(view.params.mapStride) * static_cast<std::uint64_t>(views)) {
+          maps(device(), "maps",
+               static_cast<std::uint64_t>(view.params.mapStride) *
+                   static_cast<std::uint64_t>(views)) {
         view.params.depthBits = 32;
         points.grow(1 << 20);
         generate();
@@ -50,7 +52,8 @@ void points(benchmark::State& state) {
 }
 BENCHMARK(points)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-/// Points to maps: splats (points x maps) per second. Each form is checked against the first one's maps.
+/// Points to maps: splats (points x maps) per second. Each form is checked against the first one's
+/// maps.
 void depth_warp(benchmark::State& state) {
     const auto form = static_cast<Parallelism>(state.range(0));
     const auto views = static_cast<int>(state.range(1));
@@ -64,7 +67,9 @@ void depth_warp(benchmark::State& state) {
     const auto texels = static_cast<std::uint64_t>(splat.view.params.resolution) * 1024;
     const auto expected = splat.maps.download(0, texels);
     DepthWarp pass(program("multi_view"), form, 8);
-    measure(state, [&] { pass.run(splat.points.buffers(), splat.view, splat.samples, batch, splat.counters); });
+    measure(state, [&] {
+        pass.run(splat.points.buffers(), splat.view, splat.samples, batch, splat.counters);
+    });
     if (splat.maps.download(0, texels) != expected) state.SkipWithError("the maps differ");
     state.SetItemsProcessed(state.iterations() * splat.count * views);
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(texels) * 4 * views);
@@ -84,12 +89,19 @@ void points_direct(benchmark::State& state) {
     measure(state, [&] {
         splat.maps.fill(0);
         splat.counters.fill({});
-        splat.points.runDirect(builtinScene().mesh(), splat.view, all, splat.samples, splat.maps, splat.counters);
+        splat.points.runDirect(builtinScene().mesh(), splat.view, all, splat.samples, splat.maps,
+                               splat.counters);
     });
     splat.points.grewTiles();
     state.SetItemsProcessed(state.iterations() * splat.count * views);
 }
-BENCHMARK(points_direct)->ArgName("maps")->Arg(8)->Arg(24)->Arg(128)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(points_direct)
+    ->ArgName("maps")
+    ->Arg(8)
+    ->Arg(24)
+    ->Arg(128)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace penumbra::bench

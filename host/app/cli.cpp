@@ -122,7 +122,8 @@ CLI::App* addRender(CLI::App& app, Arguments& a) {
     render.add_option("--memory", o.memoryMegabytes, "limit on device memory, MB");
     render.add_flag("--no-cache", a.noCache, "compile kernels anew");
     render.add_flag("-q,--quiet", a.render.quiet, "only errors on stderr");
-    render.add_flag("-v,--verbose", a.render.verbose, "more on stderr");
+    render.add_flag("-v,--verbose", a.render.verbose,
+                    "device, and a table of milliseconds per stage, on stderr");
     render.add_option("--config", a.config, "read options from a TOML file; the command line wins");
     return &render;
 }

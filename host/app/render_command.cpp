@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "host/app/commands.h"
@@ -93,6 +94,31 @@ void writeStats(const std::string& path, const Renderer& renderer, const nlohman
     require(static_cast<bool>(file.flush()), "--stats {}: cannot be written", path);
 }
 
+/// Median device time of each stage over the frames, as a table.
+void printStages(const nlohmann::json& frames) {
+    std::vector<std::string> names;
+    std::map<std::string, std::vector<double>> times;
+    std::vector<double> walls;
+    for (const auto& frame : frames) {
+        walls.push_back(frame["wallMs"]);
+        for (const auto& stage : frame["stages"]) {
+            const std::string name = stage["name"];
+            if (!times.contains(name)) names.push_back(name);
+            times[name].push_back(stage["deviceMs"]);
+        }
+    }
+    const auto median = [](std::vector<double>& values) {
+        std::nth_element(values.begin(),
+                         values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                         values.end());
+        return values[values.size() / 2];
+    };
+    fmt::print(stderr, "| stage | ms (median of {} frames) |\n|---|---|\n", frames.size());
+    for (const auto& name : names)
+        fmt::print(stderr, "| {} | {:.1f} |\n", name, median(times[name]));
+    if (!walls.empty()) fmt::print(stderr, "| whole frame, wall | {:.1f} |\n", median(walls));
+}
+
 void printWarnings(Renderer& renderer, bool quiet) {
     for (const auto& warning : renderer.takeWarnings())
         if (!quiet) fmt::print(stderr, "penumbra: warning: {}\n", warning);
@@ -104,7 +130,7 @@ int runRender(const RenderArguments& arguments) {
     checkOutput(arguments);
     if (arguments.quiet) runtime::SlowNotice::silence();
     RenderOptions options = arguments.options;
-    options.profile = !arguments.stats.empty();
+    options.profile = !arguments.stats.empty() || arguments.verbose;
     Renderer renderer(options);
     const auto frames = parseFrames(arguments.frames, renderer.frameCount());
     requireUsage(frames.size() == 1 || hasFrameNumber(arguments.output),
@@ -135,6 +161,7 @@ int runRender(const RenderArguments& arguments) {
     }
     if (writing.valid()) writing.get();
     if (!arguments.stats.empty()) writeStats(arguments.stats, renderer, stats);
+    if (arguments.verbose && !stats.empty()) printStages(stats);
     if (interrupts > 0) {
         fmt::print(stderr,
                    "penumbra: interrupted; finished frames are whole, --resume renders the rest\n");

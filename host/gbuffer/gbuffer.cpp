@@ -10,7 +10,7 @@ namespace penumbra::gbuffer {
 namespace {
 
 int paddedPixels(int width, int height) {
-    return (width * height + GB_PAD - 1) / GB_PAD * GB_PAD;
+    return shared::gbufferStride(width * height);
 }
 
 shared::float4 narrow(const glm::dvec3& v, double w) {
@@ -76,12 +76,13 @@ void GBufferPass::rasterise(const shared::RasterView& view, const Mesh& mesh) {
 
 const GBuffer& GBufferPass::run(const Mesh& mesh, const scene::CameraFrame& camera,
                                 const glm::dvec3& centre) {
-    device_->profiler().beginStage("gbuffer");
+    device_->profiler().beginStage("raster");
     auto view = scene::rasterView(camera, centre, gbuffer_.width, gbuffer_.height);
     view.requireFlags = DRAW_ANY;
     view.cullBack = DRAW_SINGLE_SIDED;
     view.triangleCount = static_cast<int>(mesh.triangleCount);
     rasterise(view, mesh);
+    device_->profiler().beginStage("resolve");
     auto params = paramsFor(camera, centre);
     params.width = gbuffer_.width;
     params.height = gbuffer_.height;

@@ -12,7 +12,7 @@ namespace penumbra::gbuffer {
 /// Planes of surface attributes; see kernels/shared/gbuffer.h.
 struct GBuffer {
     int width = 0, height = 0;
-    int planeStride = 0;  ///< floats between planes: pixels rounded up to GB_PAD
+    int planeStride = 0;  ///< floats between planes: see gbufferStride()
     Buffer<float> planes;
 };
 

@@ -86,6 +86,9 @@ std::uint32_t drawFlags(const scene::Scene& scene, const scene::Node& node, cons
         flags |= DRAW_BLEND;
     if (material.unlit) flags |= DRAW_UNLIT;
     if (!p.colors.empty()) flags |= DRAW_COLOURS;
+    for (const auto* texture : {&material.baseColorTexture, &material.metallicRoughnessTexture,
+                                &material.normalTexture, &material.emissiveTexture})
+        if (texture->image >= 0) flags |= DRAW_TEXTURED;
     return flags;
 }
 

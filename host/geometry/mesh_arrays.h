@@ -30,7 +30,8 @@ MeshArrays flatten(const scene::Scene& scene, const std::vector<int>& skinFirstM
                    const std::vector<int>& nodeFirstWeight);
 
 /// True if every edge of the mesh, with vertices joined by position, is shared by exactly two
-/// triangles that run along it in opposite directions. Zero-area triangles are left out.
+/// triangles that run along it in opposite directions. Triangles with two corners at one place are
+/// left out.
 bool isEdgeClosed(const scene::Mesh& mesh);
 
 }  // namespace penumbra::geometry

@@ -66,7 +66,7 @@ shared::ShadeLight shadeLight(const scene::AreaLight& light, const glm::dvec3& c
 
 Shade::Shade(const runtime::Program& frame, int width, int height)
     : device_(&frame.device()), begin_(frame, "shade_begin"), light_(frame, "shade_light") {
-    const auto pixels = static_cast<std::uint64_t>((width * height + GB_PAD - 1) / GB_PAD * GB_PAD);
+    const auto pixels = static_cast<std::uint64_t>(shared::gbufferStride(width * height));
     colour_ = Buffer<float>(*device_, "colour", runtime::Shape{1, 3, pixels});
 }
 

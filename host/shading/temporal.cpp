@@ -12,7 +12,7 @@ Temporal::Temporal(const runtime::Program& frame, int width, int height, int win
     : device_(&frame.device()),
       width_(width),
       height_(height),
-      stride_((width * height + GB_PAD - 1) / GB_PAD * GB_PAD),
+      stride_(shared::gbufferStride(width * height)),
       window_(window),
       temporal_(frame, "temporal"),
       keep_(frame, "temporal_keep"),

@@ -20,7 +20,7 @@ MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings,
                      int height, const runtime::Program& program)
     : device_(&device),
       settings_(settings),
-      stride_((width * height + GB_PAD - 1) / GB_PAD * GB_PAD),
+      stride_(shared::gbufferStride(width * height)),
       receivers_(program, "receivers"),
       lookup32_(program, "map_lookup"),
       lookup16_(program, "map_lookup16"),
@@ -35,7 +35,7 @@ MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings,
     image_.pixelStep = step;
     image_.receiverWidth = (width + step - 1) / step;
     const int receivers = image_.receiverWidth * ((height + step - 1) / step);
-    image_.receiverStride = (receivers + GB_PAD - 1) / GB_PAD * GB_PAD;
+    image_.receiverStride = shared::gbufferStride(receivers);
     image_.originOffset = kOriginOffset;
     const auto slots = static_cast<std::uint64_t>(image_.receiverStride);
     receiver_ = Buffer<float>(device, "receivers", runtime::Shape{1, RECEIVER_PLANES, slots});

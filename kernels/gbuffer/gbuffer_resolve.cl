@@ -88,44 +88,40 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
     if (dot(normal, geometric) < 0.0f) normal = -normal;
 
     // Material
-    const Material m = materials[draw.material];
+    global const Material* m = &materials[draw.material];
     const int s0 = (int)i0 + draw.sourceOffset, s1 = (int)i1 + draw.sourceOffset,
               s2 = (int)i2 + draw.sourceOffset;
-    float4 albedo = m.baseColor;
-    float3 emissive = m.emissive.xyz;
-    float metallic = m.metallic, roughness = m.roughness;
+    float4 albedo = m->baseColor;
+    float3 emissive = m->emissive.xyz;
+    float metallic = m->metallic, roughness = m->roughness;
     if (draw.flags & DRAW_COLOURS)
         albedo *= unpackColour(colours[s0]) * b.x + unpackColour(colours[s1]) * b.y +
                   unpackColour(colours[s2]) * b.z;
-    const int textured = m.baseColorTexture.offset >= 0 || m.metallicRoughnessTexture.offset >= 0 ||
-                         m.normalTexture.offset >= 0 || m.emissiveTexture.offset >= 0;
-    if (textured) {
+    if (draw.flags & DRAW_TEXTURED) {
         const float4 uv = readUvs(uvs, s0, s1, s2, b);
         const float4 right = readUvs(uvs, s0, s1, s2, rasterBarycentrics(v, x + 1, y));
         const float4 below = readUvs(uvs, s0, s1, s2, rasterBarycentrics(v, x, y + 1));
-        if (m.baseColorTexture.offset >= 0)
-            albedo *= textureRead(texels, &m.baseColorTexture, uv,
-                                  textureLevel(&m.baseColorTexture, uv, right, below));
-        if (m.emissiveTexture.offset >= 0)
-            emissive *= textureRead(texels, &m.emissiveTexture, uv,
-                                    textureLevel(&m.emissiveTexture, uv, right, below)).xyz;
-        if (m.metallicRoughnessTexture.offset >= 0) {
-            const float4 texel = textureRead(texels, &m.metallicRoughnessTexture, uv,
-                                             textureLevel(&m.metallicRoughnessTexture, uv, right, below));
+        const Texture colour = m->baseColorTexture, glow = m->emissiveTexture;
+        const Texture rough = m->metallicRoughnessTexture, bumps = m->normalTexture;
+        if (colour.offset >= 0)
+            albedo *= textureRead(texels, &colour, uv, textureLevel(&colour, uv, right, below));
+        if (glow.offset >= 0)
+            emissive *= textureRead(texels, &glow, uv, textureLevel(&glow, uv, right, below)).xyz;
+        if (rough.offset >= 0) {
+            const float4 texel = textureRead(texels, &rough, uv, textureLevel(&rough, uv, right, below));
             roughness *= texel.y;
             metallic *= texel.z;
         }
-        if (m.normalTexture.offset >= 0) {
+        if (bumps.offset >= 0) {
             float3 tangent = (vload4(i0, tangents) * b.x + vload4(i1, tangents) * b.y +
                               vload4(i2, tangents) * b.z).xyz;
             float handedness = tangents[4 * i0 + 3];
             if (handedness == 0.0f)
                 tangent = triangleTangent(p0, p1, p2, vload4(s0, uvs), vload4(s1, uvs), vload4(s2, uvs),
-                                          &m.normalTexture, &handedness);
+                                          &bumps, &handedness);
             normal = applyNormalMap(normal, tangent, handedness,
-                                    textureRead(texels, &m.normalTexture, uv,
-                                                textureLevel(&m.normalTexture, uv, right, below)),
-                                    m.normalScale);
+                                    textureRead(texels, &bumps, uv, textureLevel(&bumps, uv, right, below)),
+                                    m->normalScale);
         }
     }
     if (draw.flags & DRAW_UNLIT) {

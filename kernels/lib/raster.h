@@ -68,7 +68,7 @@ inline int rasterClassify(const RasterView* view, const RasterVertex* v) {
     return clip ? RASTER_CLIP : RASTER_WHOLE;
 }
 
-#define RASTER_MAX_CORNERS 8
+#define RASTER_MAX_CORNERS 9
 
 /// Clips a triangle to the near plane and the guard band; returns the corners of the convex rest.
 /// Cuts run from the inner to the outer vertex, so that two triangles cut a shared edge alike.
@@ -80,6 +80,8 @@ inline int rasterClip(RasterVertex* corners) {
         for (int i = 0; i < count; ++i) {
             const RasterVertex p = corners[i], q = corners[i + 1 == count ? 0 : i + 1];
             const float dp = rasterClipDistance(p, plane), dq = rasterClipDistance(q, plane);
+            // At most one corner more per plane; rounding on slivers must not go past the array
+            if (kept + 2 > RASTER_MAX_CORNERS) break;
             if (dp >= 0.0f) out[kept++] = p;
             if ((dp >= 0.0f) == (dq >= 0.0f)) continue;
             const RasterVertex in = dp >= 0.0f ? p : q, off = dp >= 0.0f ? q : p;

@@ -19,6 +19,12 @@ SHARED_BEGIN
 #define GB_PLANES 23
 #define GB_PAD 16        // planes start at multiples of this many pixels
 
+/// Floats between planes of `pixels` pixels: whole vectors, and a multiple of 4 KiB plus 5 cache lines, so
+/// that the planes of a pixel do not all fall into the same sets of a cache.
+inline int gbufferStride(int pixels) {
+    return (pixels + 1023) / 1024 * 1024 + 80;
+}
+
 typedef struct {
     float4 eye;       ///< world, re-based; w = 1, or w = 0: direction towards the viewer (orthographic)
     float4 rowDepth;  ///< camera depth = dot(rowDepth, (p, 1))

@@ -22,6 +22,7 @@ SHARED_BEGIN
 #define DRAW_BLEND 64u         // blended or transmissive
 #define DRAW_UNLIT 128u
 #define DRAW_COLOURS 256u      // vertex colours are present
+#define DRAW_TEXTURED 512u     // the material reads a texture
 #define DRAW_ANY 0x80000000u   // set in every draw
 
 /// One primitive of one node.

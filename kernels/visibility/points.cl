@@ -140,6 +140,8 @@ inline void splatPoint(const MultiViewParams* p, const LookupParams* views, floa
         splatPoint(&params, &lookup, point, opacityKey(opacity, drawIndex), samples, maps);          \
     }
 #define RASTER_END                                                     \
-    if (pointCount) atomic_add(&counters->points, pointCount);         \
-    if (nearCount) atomic_add(&counters->nearPoints, nearCount);
+    if (pointCount && lookup.firstView == 0) { /* once, not per traversal */ \
+        atomic_add(&counters->points, pointCount);                     \
+        atomic_add(&counters->nearPoints, nearCount);                  \
+    }
 #include "lib/raster.inl"

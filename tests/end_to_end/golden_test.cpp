@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures somebody has looked at (data/golden), each with its tolerance. A failure leaves the actual
-// picture and the difference in the build folder. tools/update_golden writes them anew.
+// Pictures somebody has looked at (data/golden), each with its tolerance. A failure leaves the
+// actual picture and the difference in the build folder. tools/update_golden writes them anew.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -44,7 +44,8 @@ TEST_P(GoldenTest, LooksAsBefore) {
     const auto actual = temporaryFolder("golden-" + GetParam()) + "/actual.png";
     writePng(actual, frame);
     if (std::getenv("PENUMBRA_UPDATE_GOLDEN")) {
-        std::filesystem::copy_file(actual, golden, std::filesystem::copy_options::overwrite_existing);
+        std::filesystem::copy_file(actual, golden,
+                                   std::filesystem::copy_options::overwrite_existing);
         GTEST_SKIP() << golden << " is written: look at it";
     }
     const auto a = image::readImage(golden), b = image::readImage(actual);
@@ -55,11 +56,14 @@ TEST_P(GoldenTest, LooksAsBefore) {
     for (std::size_t i = 0; i < pixels; ++i) {
         double worst = 0;
         for (std::size_t c = 0; c < 3; ++c)
-            worst = std::max(worst, std::abs(static_cast<double>(a.channels[c].values[i]) - b.channels[c].values[i]));
+            worst = std::max(worst, std::abs(static_cast<double>(a.channels[c].values[i]) -
+                                             b.channels[c].values[i]));
         beyond += worst > row["tolerance"]["step"].get<double>() ? 1 : 0;
         sum += worst;
     }
-    EXPECT_LE(static_cast<double>(beyond) / static_cast<double>(pixels), row["tolerance"]["share"].get<double>()) << actual;
+    EXPECT_LE(static_cast<double>(beyond) / static_cast<double>(pixels),
+              row["tolerance"]["share"].get<double>())
+        << actual;
     EXPECT_LE(sum / static_cast<double>(pixels), row["tolerance"]["mean"].get<double>()) << actual;
 }
 
