@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whole frames of the built-in scene at 1280 x 720, every technique, by light samples and settings.
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/support/bench.h"
@@ -47,8 +48,10 @@ const int registered = [] {
     for (const auto& entry : visibility::techniques())
         for (const int samples : {24, 128})
             add(fmt::format("frame/{}/samples:{}", entry.name, samples), entry.name, {}, samples);
+    // Lighting by filter: see the counter of that name
+    for (const char* pcf : {"1", "5", "9", "bilinear"})
+        add(fmt::format("frame/vwss/samples:24/pcf:{}", pcf), "vwss", {{"vwss.pcf", pcf}}, 24);
     add("frame/vwss/samples:24/16bit", "vwss", {{"vwss.depthBits", "16"}}, 24);
-    add("frame/vwss/samples:24/pcf1", "vwss", {{"vwss.pcf", "1"}}, 24);
     add("frame/vwss/samples:24/half", "vwss", {{"vwss.halfResolution", "true"}}, 24);
     return 0;
 }();

@@ -22,6 +22,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kAmbient = 0.05, kWhite = 0.8;
 constexpr int kMaxRetries = 6;
+constexpr double kMaxMegapixels = 90;
 
 std::unique_ptr<runtime::Device> openDevice(const RenderOptions& options) {
     const auto devices = runtime::listDevices();
@@ -155,13 +156,22 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
 
     const auto pose = scene::poseAt(scene_, clips_, 0);
     glm::dvec3 irradiance(0);
-    for (const auto& light : scene::lightsAt(scene_, pose, bounds_, sampleChoice(options_, 0)))
+    const auto choice = sampleChoice(options_, 0);
+    for (const auto& light : scene::lightsAt(scene_, pose, bounds_, choice)) {
         irradiance += scene::facingIrradiance(light, bounds_.centre());
+        const auto count = static_cast<int>(light.samples.size());
+        if (count != choice.count && !light.isPoint())
+            warnOnce(fmt::format("light '{}': {} of {} cells lie on the disk: {} samples",
+                                 light.name, count, choice.count, count));
+        if (light.isPoint())
+            warnOnce(
+                fmt::format("light '{}' has no size: hard shadows with one sample", light.name));
+    }
     exposure_ = exposureOf(options_, irradiance);
     ambient_ = kAmbient * irradiance / kPi;
 
     device_ = openDevice(options_);
-    planMemory();
+    plannedBytes_ = planMemory();
     makePasses();
     std::string key = scene::sceneDigest(scene_);
     for (const auto& [name, value] : header()) key += name + "=" + value + "\n";
@@ -170,8 +180,17 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
 
 Pipeline::~Pipeline() = default;
 
-void Pipeline::planMemory() const {
+std::uint64_t Pipeline::planMemory() const {
     runtime::MemoryPlan plan(*device_);
+    // Kernels index all planes of an image with 32 bits
+    const double millions = static_cast<double>(width_) * height_ / 1e6;
+    if (millions > kMaxMegapixels)
+        throw Error(
+            fmt::format(
+                "out of memory: {:.0f} million pixels with supersampling, at most {:.0f} million "
+                "fit; use a smaller --size or --supersample",
+                millions, kMaxMegapixels),
+            ExitCode::outOfMemory);
     const auto pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
     plan.add("G-buffer", pixels * GB_PLANES * sizeof(float));
     plan.add("visibility buffer", pixels * 8);
@@ -182,6 +201,7 @@ void Pipeline::planMemory() const {
                  2ULL * static_cast<std::uint64_t>(options_.temporal) * pixels * sizeof(float));
     plan.add("geometry", drawnTriangles(scene_) * 3 * 64);
     plan.check();
+    return plan.plannedBytes();
 }
 
 void Pipeline::makePasses() {
@@ -350,6 +370,10 @@ std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, 
                                   {"wallMs", s.wallMs},
                                   {"launches", s.launches},
                                   {"maxLaunchMs", s.maxLaunchMs}});
+    if (!device_->profiler().timestampsWork())
+        warnOnce(
+            "the device's timestamps are zero: stages are timed by the wall clock, one launch at a "
+            "time");
     if (const auto dropped = geometry_->counts().nonFiniteVertices)
         warnOnce(fmt::format("{} vertices are not finite: their triangles are dropped", dropped));
     if (counts.nearPoints)
@@ -370,8 +394,7 @@ std::string Pipeline::statsJson() const {
                 {"settings", settings},
                 {"programs",
                  {{"built", programs.built}, {"loaded", programs.loaded}, {"ms", programs.ms}}},
-                {"memory",
-                 {{"peak", device_->memory().peak}, {"planned", device_->memory().peak}}}})
+                {"memory", {{"peak", device_->memory().peak}, {"planned", plannedBytes_}}}})
         .dump();
 }
 

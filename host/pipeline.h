@@ -47,7 +47,7 @@ class Pipeline {
   private:
     double secondsOf(int number) const;
     void makePasses();
-    void planMemory() const;
+    std::uint64_t planMemory() const;
     /// Renders into the device's images; repeats where a list was too short. Returns the
     /// repetitions.
     int renderOnDevice(int number, bool keep);
@@ -80,6 +80,7 @@ class Pipeline {
     std::vector<scene::AreaLight> lights_;  ///< of the frame in flight
     scene::CameraFrame camera_;
     double exposure_ = 1;
+    std::uint64_t plannedBytes_ = 0;
     glm::dvec3 ambient_{0};
     std::string fingerprint_;
     std::vector<std::string> warnings_, warned_;

@@ -15,10 +15,10 @@ using runtime::Buffer;
 
 /// Points of the built-in scene for maps of 1024^2, with room for `views` maps.
 struct Splat {
-    explicit Splat(int views)
+    explicit Splat(int views, const runtime::Program& used = program("multi_view"))
         : light(lightWith(views)),
           view(fitLightView(light, builtinScene().bounds, builtinScene().bounds.centre(), 1024, 1)),
-          points(program("multi_view"), Cull::automatic, Precision::single),
+          points(used, Cull::automatic, Precision::single),
           samples(device(), "samples", view.samples),
           counters(device(), "counters", 1),
           maps(device(), "maps",
@@ -43,14 +43,18 @@ struct Splat {
     std::int64_t count = 0;
 };
 
-/// Triangles to points: points per second, bytes appended per second.
+/// Triangles to points: points per second, bytes appended per second. With `buffer` 1 every
+/// fragment is appended with an atomic of its own; else a work-item appends that many at a time.
 void points(benchmark::State& state) {
-    Splat splat(1);
+    const runtime::Program used(device(), "multi_view",
+                                {fmt::format("POINT_BUFFER={}", state.range(0))});
+    Splat splat(1, used);
     measure(state, [&] { splat.generate(); });
     state.SetItemsProcessed(state.iterations() * splat.count);
     state.SetBytesProcessed(state.iterations() * splat.count * 12);
 }
-BENCHMARK(points)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(points)->ArgName("buffer")->Arg(1)->Arg(4)->Arg(64)->Arg(256)->UseManualTime()->Unit(
+    benchmark::kMillisecond);
 
 /// Points to maps: splats (points x maps) per second. Each form is checked against the first one's
 /// maps.

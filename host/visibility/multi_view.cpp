@@ -66,7 +66,9 @@ int MultiView::batchSize(const LightView& view, bool wide) const {
     const auto limit = device_->memoryLimitBytes();
     const std::uint64_t held = maps32_.bytes() + maps16_.bytes();
     const std::uint64_t usable = (limit > used ? limit - used : 0) + held;
-    const std::uint64_t most = std::min(usable / 10 * 8, info.maxAllocBytes) / perView;
+    // Launches over all texels of a batch count them with 32 bits
+    const std::uint64_t most = std::min(std::min(usable / 10 * 8, info.maxAllocBytes) / perView,
+                                        std::uint64_t{0x7fffffff} / texels);
     int batch = view.params.views;
     if (settings_.viewsPerBatch > 0)
         batch = settings_.viewsPerBatch;

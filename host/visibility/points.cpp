@@ -28,7 +28,7 @@ void Points::adapt(const geometry::Mesh& mesh, LightView& view) const {
 bool Points::grow(std::uint64_t count) {
     if (count <= capacity_ && capacity_ > 0) return false;
     const std::uint64_t wanted = std::max(kFirstCapacity, (count + count / 4 + 15) / 16 * 16);
-    if (wanted > 0x7fffffffULL)
+    if (wanted > 1ULL << 30)
         throw Error(
             fmt::format("out of memory: {} points; use a smaller resolution or density", count),
             ExitCode::outOfMemory);

@@ -8,7 +8,9 @@ kernel void self_test(const int items, volatile global uint* results) {
     const int i = get_global_id(0);
     if (i >= items) return;
     atomic_max(&results[0], as_uint((float)((i * 37) % items) + 0.5f));
+#ifndef SELF_TEST_BROKEN  // tests define it, to see a device refused
     atomic_inc(&results[1]);
+#endif
     if (i != 0) return;
     const float tiny = 1.0f / 4096.0f;
     // (1 + t)^2 - 1 - 2t = t^2 only if the product is not rounded

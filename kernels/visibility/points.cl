@@ -11,10 +11,12 @@
 #include "lib/texture.h"
 #include "shared/multi_view.h"
 
+#ifndef POINT_BUFFER  // points that a work-item keeps before it appends them all; 1: an atomic per fragment
 #ifdef ON_CPU
 #define POINT_BUFFER 256
 #else
 #define POINT_BUFFER 4
+#endif
 #endif
 
 #define POINT_ALPHA_PARAMETERS                                                      \

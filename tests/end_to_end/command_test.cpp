@@ -2,12 +2,16 @@
 // The command as a user runs it: files, exit codes, messages.
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "host/image/image_file.h"
+#include "runtime/error.h"
 #include "tests/support/fixtures.h"
 
 namespace penumbra::tests {
@@ -115,6 +119,44 @@ TEST(CommandTest, ConfigurationFilesHoldOptionsAndTheCommandLineWins) {
         run("render -q --config " + folder + "/c.toml --size 32x16 -o " + folder + "/b.exr").code,
         0);
     EXPECT_EQ(image::readImage(folder + "/b.exr").width, 32);
+}
+
+TEST(CommandTest, AnInterruptFinishesTheFrameAndResumeTheRest) {
+    const auto folder = temporaryFolder("interrupt");
+    const auto command = kSmall + "--resume --frames 0..40 -o " + folder + "/f_##.png";
+    const std::string line =
+        "timeout --preserve-status -s INT 1 " + std::string(PENUMBRA_COMMAND) + " " + command;
+    EXPECT_EQ(WEXITSTATUS(std::system((line + " 2>/dev/null").c_str())), 130);
+    std::size_t files = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder)) {
+        EXPECT_NE(readFingerprint(file.path().string()), "") << file.path();
+        ++files;
+    }
+    EXPECT_LT(files, 41U);
+    ASSERT_EQ(run(command).code, 0);
+    for (int f = 0; f <= 40; ++f)
+        EXPECT_TRUE(std::filesystem::exists(fmt::format("{}/f_{:02}.png", folder, f)));
+}
+
+TEST(CommandTest, SupersamplingSmoothsEdgesAndKeepsTheSize) {
+    const auto folder = temporaryFolder("supersample");
+    ASSERT_EQ(run(kSmall + "--supersample 2 --aov id,depth -o " + folder + "/a.exr").code, 0);
+    const auto image = image::readImage(folder + "/a.exr");
+    EXPECT_EQ(image.width, 64);
+    const auto& alpha = *image.find("A");
+    EXPECT_GT(std::count_if(alpha.begin(), alpha.end(), [](float a) { return a > 0 && a < 1; }),
+              10);
+    const auto& ids = *image.find("id.object");
+    for (const float id : ids) EXPECT_EQ(id, std::floor(id));  // picked, not averaged
+}
+
+TEST(CommandTest, WithoutAnyDriverTheExitCodeIsThreeAndSaysWhereToLook) {
+    const auto folder = temporaryFolder("no-drivers");
+    setenv("OCL_ICD_VENDORS", folder.c_str(), 1);
+    const auto result = run("render -o " + folder + "/a.png");
+    unsetenv("OCL_ICD_VENDORS");
+    EXPECT_EQ(result.code, 3);
+    EXPECT_NE(result.errors.find(folder), std::string::npos) << result.errors;
 }
 
 TEST(CommandTest, ListsAreJsonOnRequest) {
