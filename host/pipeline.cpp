@@ -219,8 +219,9 @@ void Pipeline::makePasses() {
     shade_ = std::make_unique<shading::Shade>(*program_, width_, height_);
     temporal_ = std::make_unique<shading::Temporal>(*program_, width_, height_, options_.temporal);
     const auto pixels = static_cast<std::uint64_t>(shared::gbufferStride(width_ * height_));
+    const auto channels = static_cast<std::uint64_t>(technique_->channels(geometry_->mesh()));
     visibility_.planes =
-        runtime::Buffer<float>(*device_, "visibility", runtime::Shape{1, 1, pixels});
+        runtime::Buffer<float>(*device_, "visibility", runtime::Shape{1, channels, pixels});
     visibility_.state = runtime::Buffer<std::uint32_t>(*device_, "pixel states", pixels);
 }
 
@@ -237,7 +238,7 @@ int Pipeline::frameCount() const {
 void Pipeline::enqueue(const geometry::Mesh& mesh, bool keep) {
     const gbuffer::GBuffer& gbuffer = gbuffer_->run(mesh, camera_, bounds_.centre());
     shade_->begin(gbuffer, ambient_);
-    technique_->prepare(mesh);
+    technique_->prepare(mesh, bounds_, bounds_.centre());
     keptVisibility_.clear();
     keptMaps_.clear();
     for (std::size_t i = 0; i < lights_.size(); ++i) {

@@ -54,6 +54,8 @@ Geometry::Geometry(const runtime::Program& frame, const scene::Scene& scene,
     auto& device = *device_;
     mesh_.vertexCount = static_cast<std::uint32_t>(arrays.vertexItem.size());
     mesh_.triangleCount = static_cast<std::uint32_t>(arrays.triangleDraw.size());
+    for (const auto draw : arrays.triangleDraw)
+        mesh_.casterTriangleCount += arrays.draws[draw].flags & DRAW_CASTS ? 1 : 0;
     mesh_.hasMask = arrays.hasMask;
     mesh_.hasBlend = arrays.hasBlend;
     mesh_.positions = Buffer<float>(device, "positions", 3ULL * mesh_.vertexCount + 1);
@@ -140,6 +142,7 @@ const Mesh& Geometry::run(const scene::Pose& pose) {
                  jointWeights_, morphs_, morphWeights_, matrices_, mesh_.positions, mesh_.normals,
                  mesh_.tangents, counters_);
     posed_ = true;
+    ++mesh_.version;
     return mesh_;
 }
 

@@ -17,8 +17,10 @@ using runtime::Buffer;
 /// The posed mesh on the device; layouts in kernels/shared/mesh.h.
 struct Mesh {
     std::uint32_t vertexCount = 0, triangleCount = 0;
+    std::uint32_t casterTriangleCount = 0;  ///< of draws that cast shadows
     Buffer<float> positions, previousPositions, normals, tangents;
-    bool moved = false;  ///< positions differ from previousPositions
+    std::uint64_t version = 0;  ///< counts posings: equal versions are equal positions
+    bool moved = false;         ///< positions differ from previousPositions
     Buffer<std::uint32_t> indices, triangleDraw;
     Buffer<shared::Draw> draws;
     Buffer<shared::Material> materials;

@@ -17,6 +17,7 @@ constexpr double kNearClip = 1.0 / 16;
 
 struct Fit {
     double tanHalfFov = 1, near = 1;
+    bool complete = true;
 };
 
 glm::dvec3 inLight(const scene::AreaLight& light, const glm::dvec3& world) {
@@ -39,10 +40,6 @@ Fit fitTo(const scene::AreaLight& light, const scene::Bounds& casters) {
     const double least = std::max(0.25 * std::max(light.width, light.height), 1e-3 * radius);
     fit.near = light.nearMetres > 0 ? light.nearMetres : std::max(0.9 * nearest, least);
     const double maxTangent = std::tan(kMaxFov / 2);
-    if (light.fovRad > 0) {
-        fit.tanHalfFov = std::tan(light.fovRad / 2);
-        return fit;
-    }
     double tangent = 1e-3;
     for (const auto& c : corners) {
         const double z = std::max(c.z, fit.near);
@@ -50,7 +47,9 @@ Fit fitTo(const scene::AreaLight& light, const scene::Bounds& casters) {
             std::max(std::abs(c.x) + light.width / 2, std::abs(c.y) + light.height / 2);
         tangent = std::max(tangent, c.z < fit.near && nearest < fit.near ? maxTangent : reach / z);
     }
-    fit.tanHalfFov = std::min(tangent * kSpare, maxTangent);
+    fit.tanHalfFov =
+        light.fovRad > 0 ? std::tan(light.fovRad / 2) : std::min(tangent * kSpare, maxTangent);
+    fit.complete = nearest >= fit.near && tangent <= fit.tanHalfFov;
     return fit;
 }
 
@@ -83,6 +82,7 @@ LightView fitLightView(const scene::AreaLight& light, const scene::Bounds& caste
     const double wanted = std::ceil(resolution * scale * density - 1e-9);
     const int cap = std::max(kMaxEnlarged, resolution);
     p.enlarged = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(cap)));
+    view.complete = fit.complete;
     view.density = density * std::min(1.0, p.enlarged / wanted);
     const double focal = resolution / (2 * t);
     p.tanHalfFov = static_cast<float>(t);

@@ -12,7 +12,6 @@ namespace penumbra::visibility {
 namespace {
 
 constexpr int kStreamedViews = 8;  // maps that a CPU holds at a time: more fall out of its caches
-constexpr float kOriginOffset = 4e-6F;
 
 }  // namespace
 
@@ -36,7 +35,7 @@ MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings,
     image_.receiverWidth = (width + step - 1) / step;
     const int receivers = image_.receiverWidth * ((height + step - 1) / step);
     image_.receiverStride = shared::gbufferStride(receivers);
-    image_.originOffset = kOriginOffset;
+    image_.originOffset = SHADOW_ORIGIN_OFFSET;
     const auto slots = static_cast<std::uint64_t>(image_.receiverStride);
     receiver_ = Buffer<float>(device, "receivers", runtime::Shape{1, RECEIVER_PLANES, slots});
     hidden_ = Buffer<std::uint32_t>(device, "hidden tests", slots);
@@ -115,6 +114,9 @@ void MultiView::run(const Inputs& inputs, double density, MapSource& source,
     source.begin(inputs, view, light.samples, light.counters);
     profiler.beginStage("lighting");
     image_.worldMagnitude = static_cast<float>(inputs.casters.empty ? 0 : inputs.casters.radius());
+    const bool trace = !view.complete && settings_.outside == Outside::raytrace;
+    image_.outsideState = trace ? STATE_OUTSIDE : STATE_TESTED;
+    image_.countOutside = view.complete ? 0 : 1;
     if (image_.pixelStep > 1) receiver_.fill(0);
     const auto pixels = static_cast<std::uint64_t>(stride_);
     receivers_.launch({pixels}, {64}, image_, view.params, inputs.gbuffer.planes, receiver_,
@@ -133,6 +135,13 @@ void MultiView::run(const Inputs& inputs, double density, MapSource& source,
         if (inputs.depthMaps) keepMaps(view, maps, *inputs.depthMaps);
     }
     average(view, inputs.gbuffer, visibility);
+    if (trace) traceOutside(inputs, visibility);
+}
+
+void MultiView::traceOutside(const Inputs& inputs, Visibility& visibility) {
+    if (!tracer_) tracer_ = std::make_unique<Tracer>(*device_, image_.width, image_.height);
+    tracer_->bvh.build(inputs.mesh, inputs.casters, inputs.centre);
+    tracer_->pass.run(inputs, tracer_->bvh, STATE_OUTSIDE, false, visibility);
 }
 
 void MultiView::average(const LightView& view, const GBuffer& gbuffer, Visibility& visibility) {

@@ -8,6 +8,7 @@
 
 #include "host/visibility/light_view.h"
 #include "host/visibility/multi_view_settings.h"
+#include "host/visibility/raytrace.h"
 #include "host/visibility/technique.h"
 
 namespace penumbra::visibility {
@@ -44,6 +45,17 @@ class MultiView {
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
+    /// What traces the receivers outside of the views; made when a light first needs it.
+    struct Tracer {
+        Tracer(runtime::Device& device, int width, int height)
+            : frame(device, "frame"),
+              program(device, "raytrace"),
+              bvh(frame, program),
+              pass(program, width, height) {}
+        runtime::Program frame, program;
+        Bvh bvh;
+        RayPass pass;
+    };
     struct PerLight {
         Buffer<float> samples;
         Buffer<shared::MultiViewCounters> counters;
@@ -52,6 +64,7 @@ class MultiView {
     int batchSize(const LightView& view, bool wide) const;
     void allocateMaps(const LightView& view, int batch, bool wide);
     void lookup(const LightView& view, const MapBatch& batch, PerLight& light);
+    void traceOutside(const Inputs& inputs, Visibility& visibility);
     void average(const LightView& view, const GBuffer& gbuffer, Visibility& visibility);
     void keepMaps(const LightView& view, const MapBatch& batch, DepthMaps& out);
     int tapWeight() const;
@@ -80,6 +93,7 @@ class MultiView {
     Buffer<std::uint16_t> maps16_;
     std::vector<std::unique_ptr<PerLight>> lights_;
     std::size_t nextLight_ = 0;
+    std::unique_ptr<Tracer> tracer_;
     std::vector<std::string> warnings_;
 };
 

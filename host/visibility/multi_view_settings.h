@@ -6,6 +6,7 @@
 namespace penumbra::visibility {
 
 enum class Pcf { one, five, nine, bilinear };
+enum class Outside { raytrace, lit };
 
 struct MultiViewSettings {
     int resolution = 1024;
@@ -16,6 +17,7 @@ struct MultiViewSettings {
     float constantBias = 0.25F;
     float slopeBias = 1.1F;
     bool halfResolution = false;
+    Outside outside = Outside::raytrace;
 
     template <typename Row>
     void rows(Row& row) {
@@ -30,6 +32,9 @@ struct MultiViewSettings {
                    "automatic bias along the light, in footprints of a texel");
         row.number("slopeBias", slopeBias, 0.0F, 64.0F, "half texels",
                    "automatic bias along the receiver's slope");
+        row.choice(
+            "outside", outside, {"raytrace", "lit"},
+            "receivers that some view does not hold, where the views cannot hold all casters");
         row.flag("halfResolution", halfResolution,
                  "test every other pixel of every other row; the rest by edge-aware upsampling");
     }

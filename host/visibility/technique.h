@@ -49,8 +49,11 @@ struct Counts {
 class Technique {
   public:
     virtual ~Technique() = default;
+    /// Channels of the visibility that run() makes: 3 where it carries colour, else 1.
+    virtual int channels(const Mesh&) const { return 1; }
     /// Once a frame, before the lights: trees and sorts that all lights share.
-    virtual void prepare(const Mesh&) {}
+    virtual void prepare(const Mesh&, const scene::Bounds& /*casters*/,
+                         const glm::dvec3& /*centre*/) {}
     /// Enqueues one light's visibility. Allocates only when sizes change.
     virtual void run(const Inputs& inputs, Visibility& visibility) = 0;
     /// Waits for the device; true if a list was too short and has grown: repeat the frame.

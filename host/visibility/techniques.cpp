@@ -2,6 +2,7 @@
 // The only list of techniques: a line here gives the CLI value, its settings, the shared test suite
 // and the benchmark of whole frames.
 #include "host/visibility/none.h"
+#include "host/visibility/raytrace.h"
 #include "host/visibility/technique.h"
 #include "host/visibility/vwss.h"
 
@@ -25,6 +26,9 @@ const std::vector<TechniqueEntry>& techniques() {
          "triangles make "
          "many points; partial opacity blocks a share of the samples",
          describeSettings<VwssSettings>, make<Vwss>},
+        {"raytrace",
+         "the reference: one ray per light sample and pixel, opacity and colour along it", "",
+         "none but the light samples' number", describeSettings<RaytraceSettings>, make<Raytrace>},
         {"none", "no shadows", "", "lights through everything", describeSettings<NoSettings>,
          make<None>},
     };

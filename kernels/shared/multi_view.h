@@ -20,9 +20,13 @@ SHARED_BEGIN
 #define RECEIVER_FACING 5    // -n.(point - light centre); plus gradient.k per view: > 0 if it faces the sample
 #define RECEIVER_PLANES 6
 
+// Shadow tests start this share of the coordinates' magnitude off the surface
+#define SHADOW_ORIGIN_OFFSET 4e-6f
+
 #define STATE_MASKED 0u  // background, or faces away from the whole light: visibility 1, not in metrics
 #define STATE_TESTED 1u
-#define STATE_LIT 2u     // receives no shadows, or is behind the light's near side
+#define STATE_LIT 2u      // receives no shadows
+#define STATE_OUTSIDE 3u  // some view does not hold it and the views miss casters: to be traced
 
 #define POINTS_FLOAT 0
 #define POINTS_HALF 1
@@ -68,8 +72,11 @@ typedef struct {
     float worldMagnitude; ///< least magnitude that the offset is taken of, metres
     int receiverWidth;    ///< receivers in a row: width / pixelStep, rounded up
     int receiverStride;   ///< floats between planes of receivers
+    uint outsideState;    ///< of pixels that some view does not hold: STATE_OUTSIDE, or STATE_TESTED
+    int countOutside;     ///< 1: the views do not hold all casters, so such pixels are counted
+    int unused[2];
 } ReceiverParams;
-SHARED_STRUCT(ReceiverParams, 32)
+SHARED_STRUCT(ReceiverParams, 48)
 
 /// Counters of one light's run, read by the host after the frame.
 typedef struct {

@@ -6,11 +6,7 @@
 // at that texel's centre, and what a stored point may lie off the centre (half a texel) is the slope bias.
 // Counts are integers: the order and the batches of views do not change the result.
 #include "lib/lanes.h"
-#include "lib/shadow_origin.h"
-#include "lib/transform.h"
-#include "shared/gbuffer.h"
-#include "shared/mesh.h"
-#include "shared/multi_view.h"
+#include "lib/receiver.h"
 
 /// Index of the receiver of a pixel, or -1 where the pixel is not tested itself.
 inline int receiverOf(const ReceiverParams* image, int pixel) {
@@ -28,47 +24,31 @@ kernel void receivers(const ReceiverParams image, const MultiViewParams params,
     const int pixel = get_global_id(0), stride = image.planeStride;
     if (pixel >= stride) return;
     const int slot = receiverOf(&image, pixel), slots = image.receiverStride;
-    state[pixel] = STATE_MASKED;
     if (slot >= 0) {
         hidden[slot] = 0;
         receiver[RECEIVER_W * slots + slot] = 0.0f;
     }
-    if (as_uint(planes[GB_OBJECT * stride + pixel]) == 0) return;
-    const float3 position = (float3)(planes[GB_POSITION * stride + pixel],
-                                     planes[(GB_POSITION + 1) * stride + pixel],
-                                     planes[(GB_POSITION + 2) * stride + pixel]);
-    const float3 normal = (float3)(planes[GB_GEOMETRIC * stride + pixel],
-                                   planes[(GB_GEOMETRIC + 1) * stride + pixel],
-                                   planes[(GB_GEOMETRIC + 2) * stride + pixel]);
-    const float3 origin = shadowOrigin(position, normal, image.originOffset, image.worldMagnitude);
-    const Affine m = params.lightFromWorld;
-    const float x = dotPoint(m.row[0], origin.x, origin.y, origin.z);
-    const float y = dotPoint(m.row[1], origin.x, origin.y, origin.z);
-    const float z = dotPoint(m.row[2], origin.x, origin.y, origin.z);
-    const float nx = dotVector(m.row[0], normal.x, normal.y, normal.z);
-    const float ny = dotVector(m.row[1], normal.x, normal.y, normal.z);
-    const float nz = dotVector(m.row[2], normal.x, normal.y, normal.z);
-    const float facing = -(nx * x + ny * y + nz * z);
-    // Behind the light, or below the horizon of every point of it
-    if (z <= 0.0f || facing + fabs(nx) * params.halfWidth + fabs(ny) * params.halfHeight <= 0.0f) return;
-    state[pixel] = STATE_LIT;
-    if (!(as_uint(planes[GB_FLAGS * stride + pixel]) & DRAW_RECEIVES)) return;
-    const float w = params.near / z, a = fma(params.focal, x / z, params.centre),
-                b = fma(params.focal, y / z, params.centre);
-    state[pixel] = STATE_TESTED;
+    const Receiver r = receiverAt(&image, &params.lightFromWorld, params.halfWidth, params.halfHeight, planes, pixel);
+    state[pixel] = r.state;
+    if (r.state != STATE_TESTED) return;
+    const float w = params.near / r.z, a = fma(params.focal, r.x / r.z, params.centre),
+                b = fma(params.focal, r.y / r.z, params.centre);
+    const float reachX = params.halfWidth * params.focal / params.near * w;
+    const float reachY = params.halfHeight * params.focal / params.near * w;
+    const float size = (float)params.resolution;
+    if (a - reachX < 0.0f || a + reachX >= size || b - reachY < 0.0f || b + reachY >= size) {
+        if (image.countOutside) atomic_inc(&counters->outsideFov);
+        state[pixel] = image.outsideState;
+        if (image.outsideState != STATE_TESTED) return;
+    }
     if (slot >= 0) {
         receiver[RECEIVER_A * slots + slot] = a;
         receiver[RECEIVER_B * slots + slot] = b;
         receiver[RECEIVER_W * slots + slot] = w;
-        receiver[RECEIVER_GRADIENT_X * slots + slot] = params.near * nx / params.focal;
-        receiver[RECEIVER_GRADIENT_Y * slots + slot] = params.near * ny / params.focal;
-        receiver[RECEIVER_FACING * slots + slot] = facing;
+        receiver[RECEIVER_GRADIENT_X * slots + slot] = params.near * r.nx / params.focal;
+        receiver[RECEIVER_GRADIENT_Y * slots + slot] = params.near * r.ny / params.focal;
+        receiver[RECEIVER_FACING * slots + slot] = r.facing;
     }
-    const float reachX = params.halfWidth * params.focal / params.near * w;
-    const float reachY = params.halfHeight * params.focal / params.near * w;
-    const float size = (float)params.resolution;
-    if (a - reachX < 0.0f || a + reachX >= size || b - reachY < 0.0f || b + reachY >= size)
-        atomic_inc(&counters->outsideFov);
 }
 
 #define LOOKUP_KERNEL map_lookup

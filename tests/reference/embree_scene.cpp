@@ -12,24 +12,33 @@ EmbreeScene::EmbreeScene(const scene::Scene& scene, const scene::Pose& pose,
     for (const auto& triangle : posedTriangles(scene, pose))
         if (!castersOnly || scene.nodes[static_cast<std::size_t>(triangle.node)].castShadow)
             triangles_.push_back(triangle);
+    std::vector<glm::vec3> corners;
+    for (const auto& triangle : triangles_)
+        for (const auto& corner : triangle.corners) corners.emplace_back(corner - centre);
+    commit(corners);
+}
+
+EmbreeScene::EmbreeScene(const std::vector<glm::vec3>& corners) {
+    commit(corners);
+}
+
+void EmbreeScene::commit(const std::vector<glm::vec3>& corners) {
     device_ = rtcNewDevice("threads=1");
     scene_ = rtcNewScene(device_);
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-    if (!triangles_.empty()) {
+    if (!corners.empty()) {
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(
             rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                    3 * sizeof(float), 3 * triangles_.size()));
+                                    3 * sizeof(float), corners.size()));
         auto* indices = static_cast<unsigned*>(
             rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                    3 * sizeof(unsigned), triangles_.size()));
-        for (std::size_t t = 0; t < triangles_.size(); ++t)
-            for (std::size_t c = 0; c < 3; ++c) {
-                const glm::vec3 corner(triangles_[t].corners[c] - centre);
-                for (int axis = 0; axis < 3; ++axis)
-                    vertices[9 * t + 3 * c + static_cast<std::size_t>(axis)] = corner[axis];
-                indices[3 * t + c] = static_cast<unsigned>(3 * t + c);
-            }
+                                    3 * sizeof(unsigned), corners.size() / 3));
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            for (int axis = 0; axis < 3; ++axis)
+                vertices[3 * i + static_cast<std::size_t>(axis)] = corners[i][axis];
+            indices[i] = static_cast<unsigned>(i);
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene_, geometry);
         rtcReleaseGeometry(geometry);

@@ -16,6 +16,8 @@ class EmbreeScene {
     /// `centre`: what coordinates are re-based to. castersOnly: without nodes that cast no shadows.
     EmbreeScene(const scene::Scene& scene, const scene::Pose& pose, const glm::dvec3& centre,
                 bool castersOnly);
+    /// Triangles as they are, three corners each.
+    explicit EmbreeScene(const std::vector<glm::vec3>& corners);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -29,6 +31,7 @@ class EmbreeScene {
     const std::vector<PosedTriangle>& triangles() const { return triangles_; }
 
   private:
+    void commit(const std::vector<glm::vec3>& corners);
     std::vector<PosedTriangle> triangles_;
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;

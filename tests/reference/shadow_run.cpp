@@ -18,10 +18,26 @@ void enqueue(const ShadowSetup& setup, const geometry::Mesh& mesh, const scene::
              gbuffer::GBufferPass& pass, visibility::Technique& technique,
              visibility::Visibility& visibility, ShadowRun& run) {
     const auto& gbuffer = pass.run(mesh, camera, run.bounds.centre());
-    technique.prepare(mesh);
+    technique.prepare(mesh, run.bounds, run.bounds.centre());
     technique.run({mesh, gbuffer, run.light, run.bounds, run.bounds.centre(),
                    setup.keepMaps ? &run.maps : nullptr},
                   visibility);
+}
+
+std::vector<glm::vec3> casterCorners(const geometry::Mesh& mesh) {
+    const auto positions = mesh.positions.download();
+    const auto indices = mesh.indices.download();
+    const auto triangleDraw = mesh.triangleDraw.download();
+    const auto draws = mesh.draws.download();
+    std::vector<glm::vec3> corners;
+    for (std::size_t t = 0; t < mesh.triangleCount; ++t) {
+        if (!(draws[triangleDraw[t]].flags & DRAW_CASTS)) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t v = 3 * static_cast<std::size_t>(indices[3 * t + c]);
+            corners.emplace_back(positions[v], positions[v + 1], positions[v + 2]);
+        }
+    }
+    return corners;
 }
 
 }  // namespace
@@ -76,11 +92,11 @@ ShadowRun runShadows(const scene::Scene& original, const ShadowSetup& setup) {
                                         static_cast<double>(setup.width) / setup.height);
     geometry::Geometry geometry(program("frame"), scene, run.bounds.centre());
     gbuffer::GBufferPass pass(program("frame"), setup.width, setup.height);
-    const auto technique = visibility::findTechnique("vwss").make(
-        {device(), setup.settings, setup.width, setup.height});
+    const auto technique = visibility::findTechnique(setup.technique)
+                               .make({device(), setup.settings, setup.width, setup.height});
     const auto stride = static_cast<std::uint64_t>(pass.result().planeStride);
     visibility::Visibility visibility;
-    visibility.planes = runtime::Buffer<float>(device(), "visibility", stride);
+    visibility.planes = runtime::Buffer<float>(device(), "visibility", 3 * stride);
     visibility.state = runtime::Buffer<std::uint32_t>(device(), "states", stride);
     const auto& mesh = geometry.run(run.pose);
     for (;; ++run.retries) {
@@ -93,8 +109,10 @@ ShadowRun runShadows(const scene::Scene& original, const ShadowSetup& setup) {
     run.counts = technique->takeCounts();
     run.stride = stride;
     run.planes = pass.result().planes.download();
-    run.visibility = visibility.planes.download();
+    run.visibility =
+        visibility.planes.download(0, stride * static_cast<std::uint64_t>(visibility.channels));
     run.state = visibility.state.download();
+    run.casters = casterCorners(mesh);
     return run;
 }
 

@@ -15,6 +15,7 @@
 namespace penumbra::tests {
 
 struct ShadowSetup {
+    std::string technique = "vwss";
     SettingValues settings;      ///< "vwss.resolution" -> "256"
     std::string samples = "64";  ///< as --light-samples
     std::string light;           ///< as --light; empty: the scene's first
@@ -30,7 +31,8 @@ struct ShadowSetup {
 struct ShadowRun {
     int width = 0, height = 0;
     std::size_t stride = 0;
-    std::vector<float> planes, visibility;
+    std::vector<float> planes, visibility;  ///< visibility: [channels, stride]
+    std::vector<glm::vec3> casters;         ///< corners as the device posed them, three a triangle
     std::vector<std::uint32_t> state;
     visibility::DepthMaps maps;
     visibility::Counts counts;
