@@ -97,6 +97,8 @@ class Renderer {
 void writeExr(const std::string& path, const Frame& frame);
 /// Writes tone-mapped 8-bit sRGB.
 void writePng(const std::string& path, const Frame& frame);
+/// Where writeExr puts the depth maps of a frame.
+std::string depthMapsPath(const std::string& framePath);
 /// Fingerprint in a whole EXR or PNG file; empty if there is none or the file is damaged.
 std::string readFingerprint(const std::string& path);
 

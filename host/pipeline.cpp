@@ -85,12 +85,12 @@ double exposureOf(const RenderOptions& options, const glm::dvec3& irradiance) {
     try {
         std::size_t used = 0;
         const double ev = std::stod(options.exposure, &used);
-        if (used == options.exposure.size()) return std::exp2(ev);
+        if (used == options.exposure.size() && std::abs(ev) <= 64) return std::exp2(ev);
     } catch (const std::exception&) {
     }
-    throw Error(
-        fmt::format("--exposure '{}' is neither a number of stops nor 'auto'", options.exposure),
-        ExitCode::usage);
+    throw Error(fmt::format("--exposure '{}' is neither a number of stops, -64 to 64, nor 'auto'",
+                            options.exposure),
+                ExitCode::usage);
 }
 
 }  // namespace
@@ -174,7 +174,7 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
     plannedBytes_ = planMemory();
     makePasses();
     std::string key = scene::sceneDigest(scene_);
-    for (const auto& [name, value] : header()) key += name + "=" + value + "\n";
+    for (const auto& [name, value] : header()) key += fmt::format("{}={}\n", name, value);
     fingerprint_ = runtime::digest(key);
 }
 
@@ -195,10 +195,11 @@ std::uint64_t Pipeline::planMemory() const {
     plan.add("G-buffer", pixels * GB_PLANES * sizeof(float));
     plan.add("visibility buffer", pixels * 8);
     plan.add("colour and visibility", pixels * 5 * sizeof(float));
-    plan.add("receivers", pixels * 7 * sizeof(float));
     if (options_.temporal > 1)
         plan.add("visibility history",
                  2ULL * static_cast<std::uint64_t>(options_.temporal) * pixels * sizeof(float));
+    plan.add(options_.technique, visibility::findTechnique(options_.technique)
+                                     .plannedBytes({*device_, options_.settings, width_, height_}));
     plan.add("geometry", drawnTriangles(scene_) * 3 * 64);
     plan.check();
     return plan.plannedBytes();
@@ -345,6 +346,8 @@ std::vector<std::pair<std::string, std::string>> Pipeline::header() const {
     if (options_.eye) add("eye", fmt::format("{}", fmt::join(*options_.eye, ",")));
     if (options_.target) add("target", fmt::format("{}", fmt::join(*options_.target, ",")));
     if (options_.fovDegrees) add("fov", fmt::format("{}", *options_.fovDegrees));
+    add("ground", options_.ground ? "true" : "false");
+    if (!options_.lights.empty()) add("lights", fmt::format("{}", fmt::join(options_.lights, " ")));
     add("temporal", fmt::format("{}", options_.temporal));
     add("exposure", options_.exposure);
     add("aovs", fmt::format("{}", fmt::join(options_.aovs, ",")));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points, splats and lookups of vwss on the built-in scene, by variant and number of maps.
+// Points and splats of vwss on the built-in scene, by variant and number of maps.
+// Lookups: see the counter `lighting` of the whole frames by filter.
 #include <bit>
 
 #include "bench/support/bench.h"

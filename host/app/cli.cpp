@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "host/app/commands.h"
@@ -50,6 +51,12 @@ void addScene(CLI::App& command, Arguments& a) {
     command.add_option("SCENE", a.scene, ".gltf or .glb; the built-in scene where none is named");
 }
 
+/// An option that may be given several times, with one value each: what follows is not swallowed.
+void addRepeated(CLI::App& command, const char* name, std::vector<std::string>& values,
+                 const char* help) {
+    command.add_option(name, values, help)->allow_extra_args(false);
+}
+
 void addCamera(CLI::App& render, Arguments& a) {
     auto& o = a.render.options;
     render.add_option("--camera", o.camera,
@@ -65,9 +72,9 @@ void addCamera(CLI::App& render, Arguments& a) {
 
 void addLights(CLI::App& render, Arguments& a) {
     auto& o = a.render.options;
-    render.add_option("--light", o.lights,
-                      "rect:at=0,4,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=20 (disk:, sphere: with "
-                      "radius=; fov=, near=, name=); replaces the file's lights; repeatable");
+    addRepeated(render, "--light", o.lights,
+                "rect:at=0,4,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=20 (disk:, sphere: with "
+                "radius=; fov=, near=, name=); replaces the file's lights; repeatable");
     render
         .add_option("--light-samples", o.lightSamples,
                     "samples of each light: N, or MxN for a grid")
@@ -97,6 +104,7 @@ void addOutput(CLI::App& render, Arguments& a) {
         .add_option("--aov", o.aovs,
                     "extra channels of EXR files: all, visibility, depth, normal, position, "
                     "albedo, id, depth-maps")
+        ->allow_extra_args(false)
         ->delimiter(',');
     render.add_option("--temporal", o.temporal, "frames that visibility is averaged over")
         ->capture_default_str();
@@ -111,12 +119,13 @@ CLI::App* addRender(CLI::App& app, Arguments& a) {
     addOutput(render, a);
     render.add_option("--technique", o.technique, "see `penumbra techniques`")
         ->capture_default_str();
-    render.add_option("--set", a.settings, "technique.setting=value; repeatable");
+    addRepeated(render, "--set", a.settings, "technique.setting=value; repeatable");
     addLights(render, a);
     addCamera(render, a);
     render.add_flag("--ground", o.ground, "put a floor under the scene");
-    render.add_option("--animation", o.animation,
-                      "name, index, or none; default: clip 0 and what moves other nodes");
+    render.add_option(
+        "--animation", o.animation,
+        "name, index, all, or none; default (all): clip 0 and what moves other nodes");
     render.add_option("--device", a.device,
                       "cpu, gpu, an index, platform:device, or part of a name");
     render.add_option("--memory", o.memoryMegabytes, "limit on device memory, MB");
@@ -137,8 +146,8 @@ CLI::App* addDiff(CLI::App& app, Arguments& a) {
     diff.add_option("--fail-rmse", a.diff.failRmse, "largest root mean square difference");
     diff.add_option("--fail-max", a.diff.failMax, "largest difference");
     diff.add_option("--fail-psnr", a.diff.failPsnr, "least peak signal-to-noise ratio, dB");
-    diff.add_option("--fail-share", a.diff.failShares,
-                    "STEP=SHARE: largest share of pixels beyond STEP/255; steps 1, 4, 16");
+    addRepeated(diff, "--fail-share", a.diff.failShares,
+                "STEP=SHARE: largest share of pixels beyond STEP/255; steps 1, 4, 16");
     diff.add_flag("--json", a.diff.json, "JSON on stdout");
     return &diff;
 }
@@ -168,14 +177,15 @@ std::vector<std::string> withConfig(const std::vector<std::string>& arguments,
     const std::string path = configPath(arguments);
     if (path.empty()) return arguments;
     std::ifstream file(path);
-    require(static_cast<bool>(file), "--config {}: cannot be read", path);
-    auto all = arguments;
+    require(std::filesystem::is_regular_file(path) && file, "--config {}: cannot be read", path);
+    auto all = std::vector<std::string>{arguments[0]};
     for (const auto& item : CLI::ConfigTOML().from_config(file)) {
         const auto* option = render.get_option_no_throw("--" + item.name);
         requireUsage(option != nullptr && item.parents.empty() && item.name != "config",
                      "--config {}: '{}' is not an option of render; see penumbra render --help",
                      path, item.fullname());
-        if (isGiven(*option, arguments)) continue;
+        // Settings of the file and of the command line add up, key by key; the later one wins
+        if (isGiven(*option, arguments) && item.name != "set") continue;
         if (option->get_expected_min() == 0) {
             requireUsage(item.inputs == std::vector<std::string>{"true"} ||
                              item.inputs == std::vector<std::string>{"false"},
@@ -188,6 +198,7 @@ std::vector<std::string> withConfig(const std::vector<std::string>& arguments,
         else
             for (const auto& input : item.inputs) all.push_back("--" + item.name + "=" + input);
     }
+    all.insert(all.end(), arguments.begin() + 1, arguments.end());
     return all;
 }
 
@@ -204,9 +215,19 @@ int runRenderWith(Arguments& a, bool hasFov) {
     return runRender(a.render);
 }
 
+/// Names a word that is no command, which CLI11 does not.
+void requireCommand(const std::string& word) {
+    const std::vector<std::string> commands{"render", "diff", "info", "devices", "techniques"};
+    requireUsage(!word.empty(), "no command is given; allowed: {}", fmt::join(commands, ", "));
+    requireUsage(
+        word[0] == '-' || std::find(commands.begin(), commands.end(), word) != commands.end(),
+        "'{}' is not a command; allowed: {}", word, fmt::join(commands, ", "));
+}
+
 }  // namespace
 
 int runCommandLine(int argc, char** argv) {
+    requireCommand(argc > 1 ? argv[1] : "");
     CLI::App app("penumbra: accurate soft shadows for animated glTF scenes, on any OpenCL device");
     app.set_version_flag("--version", version());
     app.require_subcommand(1);
@@ -229,7 +250,13 @@ int runCommandLine(int argc, char** argv) {
     try {
         app.parse(arguments);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+        if (error.get_exit_code() == 0) return app.exit(error);
+        std::string message = error.what();
+        std::replace(message.begin(), message.end(), '\n', ' ');
+        throw Error(message + "; see penumbra " +
+                        (argc > 1 && argv[1][0] != '-' ? std::string(argv[1]) + " " : "") +
+                        "--help",
+                    ExitCode::usage);
     }
     if (render->parsed()) return runRenderWith(a, render->count("--fov") > 0);
     if (diff->parsed()) return runDiff(a.diff);

@@ -86,6 +86,15 @@ class Progress {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// True if the frame's files were written by these very options.
+bool isWhole(const std::string& path, const std::string& fingerprint,
+             const RenderOptions& options) {
+    if (readFingerprint(path) != fingerprint) return false;
+    const auto& aovs = options.aovs;
+    return std::find(aovs.begin(), aovs.end(), "depth-maps") == aovs.end() ||
+           readFingerprint(depthMapsPath(path)) == fingerprint;
+}
+
 void writeStats(const std::string& path, const Renderer& renderer, const nlohmann::json& frames) {
     auto json = nlohmann::json::parse(renderer.statsJson());
     json["frames"] = frames;
@@ -128,6 +137,9 @@ void printWarnings(Renderer& renderer, bool quiet) {
 
 int runRender(const RenderArguments& arguments) {
     checkOutput(arguments);
+    if (!arguments.stats.empty())
+        require(static_cast<bool>(std::ofstream(arguments.stats, std::ios::app)),
+                "--stats {}: cannot be written", arguments.stats);
     if (arguments.quiet) runtime::SlowNotice::silence();
     RenderOptions options = arguments.options;
     options.profile = !arguments.stats.empty() || arguments.verbose;
@@ -146,7 +158,7 @@ int runRender(const RenderArguments& arguments) {
     for (const int number : frames) {
         if (interrupts > 0) break;
         const auto path = framePath(arguments.output, number);
-        if (arguments.resume && readFingerprint(path) == renderer.fingerprint()) {
+        if (arguments.resume && isWhole(path, renderer.fingerprint(), options)) {
             progress.skipped(path);
             continue;
         }

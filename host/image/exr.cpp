@@ -91,9 +91,7 @@ void writeDepthMaps(const std::string& path, const void* context) {
 void writeExrFile(const std::string& path, const Frame& frame) {
     writeWhole(path, &frame, writeFrame);
     if (frame.depthMaps.empty()) return;
-    const std::filesystem::path file(path);
-    const auto maps = file.parent_path() / (file.stem().string() + ".depth-maps.exr");
-    writeWhole(maps.string(), &frame, writeDepthMaps);
+    writeWhole(depthMapsPath(path), &frame, writeDepthMaps);
 }
 
 LoadedImage readExrFile(const std::string& path) try {

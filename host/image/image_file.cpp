@@ -54,6 +54,11 @@ void writeExr(const std::string& path, const Frame& frame) {
     image::writeExrFile(path, frame);
 }
 
+std::string depthMapsPath(const std::string& framePath) {
+    const std::filesystem::path file(framePath);
+    return (file.parent_path() / (file.stem().string() + ".depth-maps.exr")).string();
+}
+
 void writePng(const std::string& path, const Frame& frame) {
     image::writeWhole(path, &frame, [](const std::string& temporary, const void* context) {
         image::writePngFile(temporary, *static_cast<const Frame*>(context));

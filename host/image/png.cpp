@@ -93,6 +93,7 @@ LoadedImage readPngFile(const std::string& path) try {
     const auto rowBytes = png_get_rowbytes(r.png, r.info);
     std::vector<png_byte> texels(rowBytes * static_cast<std::size_t>(image.height));
     std::vector<png_bytep> rows;
+    rows.reserve(static_cast<std::size_t>(image.height));
     for (int y = 0; y < image.height; ++y)
         rows.push_back(texels.data() + rowBytes * static_cast<std::size_t>(y));
     png_read_image(r.png, rows.data());

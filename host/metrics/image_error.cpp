@@ -39,6 +39,17 @@ std::vector<std::string> layersOf(const image::LoadedImage& image) {
     return {layers.begin(), layers.end()};
 }
 
+/// The mask for visibility: background is left out where both images tell it by their alpha.
+std::vector<bool> withoutBackground(const image::LoadedImage& a, const image::LoadedImage& b,
+                                    std::vector<bool> mask) {
+    const auto *alphaA = a.find("A"), *alphaB = b.find("A");
+    if (!alphaA || !alphaB) return mask;
+    if (mask.empty()) mask.assign(alphaA->size(), true);
+    for (std::size_t i = 0; i < mask.size(); ++i)
+        mask[i] = mask[i] && ((*alphaA)[i] > 0 || (*alphaB)[i] > 0);
+    return mask;
+}
+
 std::vector<std::string> chooseLayers(const image::LoadedImage& a, const image::LoadedImage& b,
                                       const std::string& layer) {
     const auto inA = layersOf(a), inB = layersOf(b);
@@ -103,16 +114,18 @@ std::vector<LayerError> compareImages(const image::LoadedImage& a, const image::
     std::vector<LayerError> errors;
     Planes allA, allB;
     const auto layers = chooseLayers(a, b, layer);
+    const bool visibility = layers[0].rfind("visibility.", 0) == 0;
+    const auto counted = visibility ? withoutBackground(a, b, mask) : mask;
     for (const auto& name : layers) {
         const auto pa = planesOf(a, name), pb = planesOf(b, name);
         require(pa.size() == pb.size(), "layer '{}' has {} and {} channels", name, pa.size(),
                 pb.size());
-        errors.push_back({name, imageError(pa, pb, mask)});
+        errors.push_back({name, imageError(pa, pb, counted)});
         allA.insert(allA.end(), pa.begin(), pa.end());
         allB.insert(allB.end(), pb.begin(), pb.end());
     }
     const std::string whole = layers.size() == 1 ? layers[0] : "visibility";
-    errors.insert(errors.begin(), {whole, imageError(allA, allB, mask)});
+    errors.insert(errors.begin(), {whole, imageError(allA, allB, counted)});
     return errors;
 }
 

@@ -29,8 +29,8 @@ struct LayerError {
 };
 
 /// Compares the layers that both images have: every visibility.* if any is in both, else RGB; or
-/// `layer`. The first entry is over all of them. Throws Error where sizes differ or nothing can be
-/// compared.
+/// `layer`. Visibility leaves out background (alpha 0 in both). The first entry is over all of
+/// them. Throws Error where sizes differ or nothing can be compared.
 std::vector<LayerError> compareImages(const image::LoadedImage& a, const image::LoadedImage& b,
                                       const std::string& layer, const std::vector<bool>& mask);
 

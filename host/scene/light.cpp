@@ -168,7 +168,10 @@ glm::dvec3 facingIrradiance(const AreaLight& light, const glm::dvec3& point) {
     const glm::dvec3 offset = point - light.centre;
     const double squared = std::max(glm::dot(offset, offset), 1e-12);
     if (light.isPoint()) return light.radiance / squared;
-    const double cosine = std::max(glm::dot(glm::normalize(offset), light.axisZ), 0.0);
+    // A light at the point itself shines on what faces it
+    const double distance = glm::length(offset);
+    const double cosine =
+        distance > 1e-9 ? std::max(glm::dot(offset / distance, light.axisZ), 0.0) : 1.0;
     const double area = light.width * light.height * (light.disk ? kPi / 4 : 1);
     // A disk of the same area seen from its axis: exact there, and finite close by
     return light.radiance * cosine * area / (squared + area / kPi);
@@ -211,6 +214,8 @@ Light parseLight(const std::string& text) {
             const auto v = numbers(key, value, ',');
             requireUsage(v.size() == 1 || v.size() == 3,
                          "--light: radiance={} needs one or three numbers", value);
+            requireUsage(std::all_of(v.begin(), v.end(), [](double x) { return x >= 0; }),
+                         "--light: radiance={} must be at least 0", value);
             light.radiance = v.size() == 1 ? glm::dvec3(v[0]) : glm::dvec3(v[0], v[1], v[2]);
         } else {
             throw Error(

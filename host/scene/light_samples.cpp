@@ -38,6 +38,7 @@ glm::dvec2 toDisk(const glm::dvec2& p) {
 
 std::vector<glm::dvec2> hammersley(int count) {
     std::vector<glm::dvec2> points;
+    points.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
         points.emplace_back(2 * (i + 0.5) / count - 1,
                             2 * (radicalInverse(static_cast<std::uint32_t>(i)) + 0.5 / count) - 1);
@@ -103,6 +104,10 @@ SampleChoice parseSampleCount(const std::string& text, SampleChoice choice) {
         requireUsage(choice.columns <= kMaxSamples && choice.rows <= kMaxSamples,
                      "--light-samples {} has more than {} samples", text, kMaxSamples);
         choice.count = choice.columns * choice.rows;
+        requireUsage(choice.pattern != Pattern::poisson,
+                     "--light-samples {} is a grid, and --light-pattern poisson is none; allowed: "
+                     "grid, jittered",
+                     text);
         if (choice.pattern != Pattern::jittered) choice.pattern = Pattern::grid;
     }
     requireUsage(choice.count <= kMaxSamples, "--light-samples {} is outside of 1 to {}", text,

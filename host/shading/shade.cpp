@@ -49,6 +49,8 @@ shared::ShadeLight shadeLight(const scene::AreaLight& light, const glm::dvec3& c
     for (int i = 0; i < 3; ++i)
         out.lightFromWorld.row[i] = narrow(axes[i], -glm::dot(axes[i], origin));
     out.radiance = narrow(light.radiance, 0);
+    out.halfWidth = static_cast<float>(light.width / 2);
+    out.halfHeight = static_cast<float>(light.height / 2);
     out.cosInner = static_cast<float>(std::cos(light.innerConeRad));
     out.cosOuter =
         light.outerConeRad > 0 ? static_cast<float>(std::cos(light.outerConeRad)) : -2.0F;

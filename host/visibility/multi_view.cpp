@@ -43,6 +43,14 @@ MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings,
     maps16_ = Buffer<std::uint16_t>(device, "depth maps", 1);
 }
 
+std::uint64_t MultiView::plannedBytes(const MultiViewSettings& settings, int width, int height) {
+    const auto size = static_cast<std::uint64_t>(settings.resolution);
+    const std::uint64_t shrink = settings.halfResolution ? 4 : 1;
+    const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    return size * size * static_cast<std::uint64_t>(settings.depthBits / 8) +
+           pixels / shrink * (RECEIVER_PLANES + 1) * sizeof(float);
+}
+
 int MultiView::tapWeight() const {
     switch (settings_.pcf) {
         case Pcf::one:
@@ -103,6 +111,11 @@ void MultiView::run(const Inputs& inputs, double density, MapSource& source,
             fmt::format("light '{}': the enlarged view is capped at {} pixels: density {:.2f} of "
                         "{:.2f}; use a smaller resolution or a larger near=",
                         inputs.light.name, view.params.enlarged, view.density, density));
+    if (!view.complete && settings_.outside == Outside::lit)
+        warnings_.push_back(
+            fmt::format("light '{}': its views cannot hold all casters, and receivers outside of "
+                        "them are lit; outside=raytrace traces them",
+                        inputs.light.name));
     if (nextLight_ == lights_.size()) lights_.push_back(std::make_unique<PerLight>());
     PerLight& light = *lights_[nextLight_++];
     light.samples.grow(*device_, "light samples", view.samples.size());

@@ -39,6 +39,8 @@ class MultiView {
     MultiView(runtime::Device& device, const MultiViewSettings& settings, int width, int height,
               const runtime::Program& program);
 
+    /// Receivers and one depth map: the least that it works with.
+    static std::uint64_t plannedBytes(const MultiViewSettings& settings, int width, int height);
     void run(const Inputs& inputs, double density, MapSource& source, Visibility& visibility);
     /// Reads the counters of the frame's lights (waits) and starts anew.
     Counts takeCounts();

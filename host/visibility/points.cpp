@@ -25,6 +25,10 @@ void Points::adapt(const geometry::Mesh& mesh, LightView& view) const {
     view.params.pointCapacity = capacity_;
 }
 
+std::uint64_t Points::plannedBytes(Precision precision) {
+    return 3 * kFirstCapacity * (precision == Precision::single ? 4 : 2);
+}
+
 bool Points::grow(std::uint64_t count) {
     if (count <= capacity_ && capacity_ > 0) return false;
     const std::uint64_t wanted = std::max(kFirstCapacity, (count + count / 4 + 15) / 16 * 16);

@@ -35,6 +35,8 @@ class Points {
                    runtime::Buffer<shared::MultiViewCounters>& counters);
     /// Makes room for `count` points. Returns false if there was enough.
     bool grow(std::uint64_t count);
+    /// Bytes of the first capacity.
+    static std::uint64_t plannedBytes(Precision precision);
     bool grewTiles() { return tiles_.grew(); }
     const PointBuffers& buffers() const { return buffers_; }
 

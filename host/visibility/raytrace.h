@@ -39,6 +39,7 @@ struct RaytraceSettings {
 class Raytrace : public Technique {
   public:
     explicit Raytrace(const TechniqueContext& context);
+    static std::uint64_t plannedBytes(const TechniqueContext&) { return 0; }
     void prepare(const Mesh& mesh, const scene::Bounds& casters,
                  const glm::dvec3& centre) override {
         bvh_.build(mesh, casters, centre);

@@ -80,6 +80,8 @@ struct TechniqueEntry {
     const char* source;    ///< key of the paper and section
     const char* failures;  ///< known failures, for `penumbra techniques`
     std::vector<SettingRow> (*describe)();
+    /// What it will hold at the least: batches of maps shrink to what is left, lists grow.
+    std::uint64_t (*plannedBytes)(const TechniqueContext&);
     std::unique_ptr<Technique> (*make)(const TechniqueContext&);
 };
 

@@ -25,12 +25,13 @@ const std::vector<TechniqueEntry>& techniques() {
          "bands of self-shadowing, slight bloat of shadows, leaks at grazing angles; few large "
          "triangles make "
          "many points; partial opacity blocks a share of the samples",
-         describeSettings<VwssSettings>, make<Vwss>},
+         describeSettings<VwssSettings>, Vwss::plannedBytes, make<Vwss>},
         {"raytrace",
          "the reference: one ray per light sample and pixel, opacity and colour along it", "",
-         "none but the light samples' number", describeSettings<RaytraceSettings>, make<Raytrace>},
+         "none but the light samples' number", describeSettings<RaytraceSettings>,
+         Raytrace::plannedBytes, make<Raytrace>},
         {"none", "no shadows", "", "lights through everything", describeSettings<NoSettings>,
-         make<None>},
+         [](const TechniqueContext&) -> std::uint64_t { return 0; }, make<None>},
     };
     return list;
 }

@@ -78,6 +78,12 @@ Vwss::Vwss(const TechniqueContext& context)
       multiView_(context.device, settings_, context.width, context.height, program_),
       source_(std::make_unique<Source>(context.device, settings_, program_)) {}
 
+std::uint64_t Vwss::plannedBytes(const TechniqueContext& context) {
+    const auto settings = parseSettings<VwssSettings>("vwss", context.values);
+    return Points::plannedBytes(settings.precision) +
+           MultiView::plannedBytes(settings, context.width, context.height);
+}
+
 Vwss::~Vwss() = default;
 
 void Vwss::run(const Inputs& inputs, Visibility& visibility) {

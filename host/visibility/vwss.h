@@ -38,6 +38,7 @@ struct VwssSettings : MultiViewSettings {
 class Vwss : public Technique {
   public:
     explicit Vwss(const TechniqueContext& context);
+    static std::uint64_t plannedBytes(const TechniqueContext& context);
     ~Vwss() override;
     void run(const Inputs& inputs, Visibility& visibility) override;
     bool grew() override;

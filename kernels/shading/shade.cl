@@ -106,6 +106,11 @@ kernel void shade_light(const ShadeParams params, const ShadeLight light,
     s.roughness = max(V_LOAD(planes, GB_ROUGHNESS * stride + pixel), (VF)SHADE_MIN_ROUGHNESS);
 
     VF irradiance;
+    // What faces away from the whole light is dark, however its normals are smoothed
+    const V3 geometric = affineVector(&light.lightFromWorld, loadV3(planes, stride, GB_GEOMETRIC, pixel));
+    const VF facing = fabs(geometric.x) * light.halfWidth + fabs(geometric.y) * light.halfHeight -
+                      v3Dot(geometric, s.position);
+    const VI faces = V_MASK(facing > 0.0f);
     if (light.corners > 0) {
         irradiance = polygonIrradiance(&light, s.position, s.normal);
     } else {
@@ -122,7 +127,7 @@ kernel void shade_light(const ShadeParams params, const ShadeLight light,
 
     const VF cone = coneFalloff(&light, s.position);
     const VF diffuse = irradiance * 0.31830989f * (1.0f - metallic) * cone;
-    const VF lit = V_SELECT((VF)0.0f, (VF)1.0f, V_MASK(covered));
+    const VF lit = V_SELECT((VF)0.0f, (VF)1.0f, V_MASK(covered) & faces);
     const VF white = V_SELECT((VF)0.0f, cone, V_MASK(albedo.x + albedo.y + albedo.z > 0.0f));
     const VF albedos[3] = {albedo.x, albedo.y, albedo.z};
     const float radiances[3] = {light.radiance.x, light.radiance.y, light.radiance.z};

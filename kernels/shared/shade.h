@@ -14,10 +14,12 @@ typedef struct {
     int corners;          ///< 4, SHADE_MAX_CORNERS for disks, 0: a point
     float area;           ///< square metres
     float cosInner, cosOuter;  ///< cone; cosOuter -2: none
+    float halfWidth, halfHeight;  ///< metres
+    int unused[2];
     float4 corner[SHADE_MAX_CORNERS / 2];  ///< (x, y) of two corners each, in order around the light
     float4 point[SHADE_POINTS / 2];        ///< (x, y) of two fixed points each, for reflections
 } ShadeLight;
-SHARED_STRUCT(ShadeLight, 336)
+SHARED_STRUCT(ShadeLight, 352)
 
 typedef struct {
     float4 eye;      ///< as in GBufferParams

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "host/image/image_file.h"
@@ -115,10 +116,16 @@ TEST(CommandTest, ConfigurationFilesHoldOptionsAndTheCommandLineWins) {
         << "size = \"48x32\"\nlight-samples = \"2\"\nset = [\"vwss.resolution=64\"]\n";
     ASSERT_EQ(run("render -q --config " + folder + "/c.toml -o " + folder + "/a.exr").code, 0);
     EXPECT_EQ(image::readImage(folder + "/a.exr").width, 48);
-    ASSERT_EQ(
-        run("render -q --config " + folder + "/c.toml --size 32x16 -o " + folder + "/b.exr").code,
-        0);
-    EXPECT_EQ(image::readImage(folder + "/b.exr").width, 32);
+    ASSERT_EQ(run("render -q --config " + folder + "/c.toml --size 32x16 --set vwss.pcf=9 -o " +
+                  folder + "/b.exr")
+                  .code,
+              0);
+    const auto both = image::readImage(folder + "/b.exr");
+    EXPECT_EQ(both.width, 32);
+    // Settings of the file and of the command line add up
+    std::map<std::string, std::string> header(both.header.begin(), both.header.end());
+    EXPECT_EQ(header["penumbra.vwss.resolution"], "64");
+    EXPECT_EQ(header["penumbra.vwss.pcf"], "9");
 }
 
 TEST(CommandTest, AnInterruptFinishesTheFrameAndResumeTheRest) {
@@ -159,6 +166,23 @@ TEST(CommandTest, WithoutAnyDriverTheExitCodeIsThreeAndSaysWhereToLook) {
     EXPECT_NE(result.errors.find(folder), std::string::npos) << result.errors;
 }
 
+TEST(CommandTest, RepeatedOptionsDoNotSwallowTheScene) {
+    const auto folder = temporaryFolder("order");
+    const auto result =
+        run("render --set vwss.pcf=9 absent.glb --aov depth -o " + folder + "/a.exr");
+    EXPECT_EQ(result.code, 1);
+    EXPECT_NE(result.errors.find("absent.glb"), std::string::npos) << result.errors;
+}
+
+TEST(CommandTest, ALightAtTheCentreOfTheSceneGivesFiniteColours) {
+    const auto folder = temporaryFolder("centre");
+    const std::string light = "--light 'disk:at=0,0.95,0;aim=1,0,0;radius=0.1' ";
+    ASSERT_EQ(run(kSmall + light + "-o " + folder + "/a.exr").code, 0);
+    const auto image = image::readImage(folder + "/a.exr");
+    for (const char* channel : {"R", "G", "B"})
+        for (const float value : *image.find(channel)) ASSERT_TRUE(std::isfinite(value));
+}
+
 TEST(CommandTest, ListsAreJsonOnRequest) {
     EXPECT_FALSE(nlohmann::json::parse(run("devices --json").output)["devices"].empty());
     EXPECT_EQ(nlohmann::json::parse(run("techniques --json").output)["techniques"][0]["name"],
@@ -188,8 +212,15 @@ TEST_P(CommandErrorTest, EndsWithOneLineAndItsExitCode) {
 INSTANTIATE_TEST_SUITE_P(
     All, CommandErrorTest,
     testing::Values(
-        BadUse{"", 2, "subcommand"}, BadUse{"render", 2, "--output"},
-        BadUse{"render -o /tmp/a.jpg", 2, ".exr nor .png"},
+        BadUse{"", 2, "no command is given"},
+        BadUse{"frobnicate", 2, "'frobnicate' is not a command"},
+        BadUse{"render -o /tmp/penumbra_test.png --exposure nan", 2, "--exposure"},
+        BadUse{"render -o /tmp/penumbra_test.png --light 'rect:radiance=-3'", 2, "at least 0"},
+        BadUse{"render -o /tmp/penumbra_test.png --light-samples 8x8 --light-pattern poisson", 2,
+               "allowed: grid"},
+        BadUse{"render -o /tmp/penumbra_test.png --config /etc", 1, "cannot be read"},
+        BadUse{"render -o /tmp/penumbra_test.png --stats /absent/s.json", 1, "--stats"},
+        BadUse{"render", 2, "--output"}, BadUse{"render -o /tmp/a.jpg", 2, ".exr nor .png"},
         BadUse{"render -o /tmp/penumbra_test.png --frames 0..3", 2, "####"},
         BadUse{"render -o /tmp/penumbra_test.png --frames 3..1", 2, "backwards"},
         BadUse{"render absent.glb -o /tmp/penumbra_test.png", 1, "absent.glb"},
