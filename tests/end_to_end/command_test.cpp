@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command as a user runs it: files, exit codes, messages.
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,8 @@ std::string readFile(const std::string& path) {
 }
 
 Result run(const std::string& arguments) {
-    const std::string errors = temporaryFolder("command-errors") + "/stderr";
+    const std::string errors =
+        temporaryFolder("command-errors-" + std::to_string(getpid())) + "/stderr";
     const std::string line = std::string(PENUMBRA_COMMAND) + " " + arguments + " 2>" + errors;
     Result result;
     std::FILE* pipe = popen(line.c_str(), "r");
