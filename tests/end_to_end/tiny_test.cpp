@@ -114,6 +114,37 @@ TEST(TinyVwssVariantsTest, AllVariantsMakeTheSameMapsAndVisibility) {
     }
 }
 
+TEST(TinyRaytraceTest, AgreesWithTheDepthMapsOnMostPixelsAndCarriesColour) {
+    auto options = tinyOptions();
+    options.aovs = {"visibility"};
+    const auto maps = Pipeline(options, tinyScene()).render(0).channels;
+    options.technique = "raytrace";
+    options.settings.clear();
+    const auto rays = Pipeline(options, tinyScene()).render(0).channels;
+    double difference = 0;
+    for (std::size_t i = 0; i < rays[0].values.size(); ++i)
+        difference += std::abs(rays[0].values[i] - maps[0].values[i]);
+    EXPECT_LT(difference / static_cast<double>(rays[0].values.size()), 0.1);
+    EXPECT_EQ(*std::min_element(rays[0].values.begin(), rays[0].values.end()), 0.0F);
+}
+
+TEST(TinyRaytraceTest, ReceiversOutsideOfNarrowViewsAreTraced) {
+    auto options = tinyOptions();
+    options.aovs = {"visibility"};
+    auto scene = tinyScene();
+    scene.lights[0].fovRad = 0.1;  // holds next to nothing
+    const auto narrow = Pipeline(options, scene).render(0).channels[0].values;
+    options.technique = "raytrace";
+    options.settings.clear();
+    const auto rays = Pipeline(options, tinyScene()).render(0).channels;
+    std::size_t equal = 0;
+    for (std::size_t i = 0; i < narrow.size(); ++i) {
+        const float mean = (rays[0].values[i] + rays[1].values[i] + rays[2].values[i]) / 3;
+        equal += std::abs(narrow[i] - mean) < 1e-3F ? 1 : 0;
+    }
+    EXPECT_GT(equal, narrow.size() * 9 / 10);
+}
+
 TEST(TinyTemporalTest, AveragesAStillSceneToItself) {
     auto options = tinyOptions();
     options.aovs = {"visibility"};
