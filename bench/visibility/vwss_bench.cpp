@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Points and splats of vwss on the built-in scene, by variant and number of maps.
-// Lookups: see the counter `lighting` of the whole frames by filter.
 #include <bit>
 
 #include "bench/support/bench.h"
