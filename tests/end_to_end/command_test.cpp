@@ -205,7 +205,13 @@ class CommandErrorTest : public testing::TestWithParam<BadUse> {};
 
 TEST_P(CommandErrorTest, EndsWithOneLineAndItsExitCode) {
     const auto& bad = GetParam();
-    const auto result = run(bad.arguments);
+    // OUT stands for a folder of this process: suites run side by side
+    std::string arguments = bad.arguments;
+    const std::string folder = temporaryFolder("bad-use-" + std::to_string(getpid()));
+    for (auto at = arguments.find("OUT/"); at != std::string::npos;
+         at = arguments.find("OUT/", at + folder.size()))
+        arguments.replace(at, 3, folder);
+    const auto result = run(arguments);
     EXPECT_EQ(result.code, bad.code) << result.errors;
     EXPECT_NE(result.errors.find(bad.part), std::string::npos) << result.errors;
     EXPECT_EQ(result.output, "");
@@ -213,34 +219,34 @@ TEST_P(CommandErrorTest, EndsWithOneLineAndItsExitCode) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, CommandErrorTest,
-    testing::Values(
-        BadUse{"", 2, "no command is given"},
-        BadUse{"frobnicate", 2, "'frobnicate' is not a command"},
-        BadUse{"render -o /tmp/penumbra_test.png --exposure nan", 2, "--exposure"},
-        BadUse{"render -o /tmp/penumbra_test.png --light 'rect:radiance=-3'", 2, "at least 0"},
-        BadUse{"render -o /tmp/penumbra_test.png --light-samples 8x8 --light-pattern poisson", 2,
-               "allowed: grid"},
-        BadUse{"render -o /tmp/penumbra_test.png --config /etc", 1, "cannot be read"},
-        BadUse{"render -o /tmp/penumbra_test.png --stats /absent/s.json", 1, "--stats"},
-        BadUse{"render", 2, "--output"}, BadUse{"render -o /tmp/a.jpg", 2, ".exr nor .png"},
-        BadUse{"render -o /tmp/penumbra_test.png --frames 0..3", 2, "####"},
-        BadUse{"render -o /tmp/penumbra_test.png --frames 3..1", 2, "backwards"},
-        BadUse{"render absent.glb -o /tmp/penumbra_test.png", 1, "absent.glb"},
-        BadUse{"render -o /tmp/penumbra_test.png --technique magic", 2, "allowed: vwss"},
-        BadUse{"render -o /tmp/penumbra_test.png --set vwss.pcf=7", 2, "1, 5, 9, bilinear"},
-        BadUse{"render -o /tmp/penumbra_test.png --set vwss.resolution=9", 2, "64 to 8192"},
-        BadUse{"render -o /tmp/penumbra_test.png --set vwss.colour=9", 2, "no setting 'colour'"},
-        BadUse{"render -o /tmp/penumbra_test.png --light-samples 5000", 2, "4096"},
-        BadUse{"render -o /tmp/penumbra_test.png --light-samples 0", 2, "allowed: N or MxN"},
-        BadUse{"render -o /tmp/penumbra_test.png --light cone:", 2, "allowed: rect:"},
-        BadUse{"render -o /tmp/penumbra_test.png --light 'rect:size=1'", 2, "WxH"},
-        BadUse{"render -o /tmp/penumbra_test.png --size 0x5", 2, "--size"},
-        BadUse{"render -o /tmp/penumbra_test.png --aov depth", 2, "EXR"},
-        BadUse{"render -o /tmp/penumbra_test.exr --aov colour", 2, "allowed: all"},
-        BadUse{"render -o /tmp/penumbra_test.png --camera absent", 2, "allowed: auto"},
-        BadUse{"render -o /tmp/penumbra_test.png --device absent", 3, "no OpenCL device matches"},
-        BadUse{"render -o /tmp/penumbra_test.png --memory 20", 4, "out of memory"},
-        BadUse{"render -o /proc/penumbra/a.png", 1, "cannot be made"}));
+    testing::Values(BadUse{"", 2, "no command is given"},
+                    BadUse{"frobnicate", 2, "'frobnicate' is not a command"},
+                    BadUse{"render -o OUT/a.png --exposure nan", 2, "--exposure"},
+                    BadUse{"render -o OUT/a.png --light 'rect:radiance=-3'", 2, "at least 0"},
+                    BadUse{"render -o OUT/a.png --light-samples 8x8 --light-pattern poisson", 2,
+                           "allowed: grid"},
+                    BadUse{"render -o OUT/a.png --config /etc", 1, "cannot be read"},
+                    BadUse{"render -o OUT/a.png --stats /absent/s.json", 1, "--stats"},
+                    BadUse{"render", 2, "--output"},
+                    BadUse{"render -o OUT/a.jpg", 2, ".exr nor .png"},
+                    BadUse{"render -o OUT/a.png --frames 0..3", 2, "####"},
+                    BadUse{"render -o OUT/a.png --frames 3..1", 2, "backwards"},
+                    BadUse{"render absent.glb -o OUT/a.png", 1, "absent.glb"},
+                    BadUse{"render -o OUT/a.png --technique magic", 2, "allowed: vwss"},
+                    BadUse{"render -o OUT/a.png --set vwss.pcf=7", 2, "1, 5, 9, bilinear"},
+                    BadUse{"render -o OUT/a.png --set vwss.resolution=9", 2, "64 to 8192"},
+                    BadUse{"render -o OUT/a.png --set vwss.colour=9", 2, "no setting 'colour'"},
+                    BadUse{"render -o OUT/a.png --light-samples 5000", 2, "4096"},
+                    BadUse{"render -o OUT/a.png --light-samples 0", 2, "allowed: N or MxN"},
+                    BadUse{"render -o OUT/a.png --light cone:", 2, "allowed: rect:"},
+                    BadUse{"render -o OUT/a.png --light 'rect:size=1'", 2, "WxH"},
+                    BadUse{"render -o OUT/a.png --size 0x5", 2, "--size"},
+                    BadUse{"render -o OUT/a.png --aov depth", 2, "EXR"},
+                    BadUse{"render -o OUT/a.exr --aov colour", 2, "allowed: all"},
+                    BadUse{"render -o OUT/a.png --camera absent", 2, "allowed: auto"},
+                    BadUse{"render -o OUT/a.png --device absent", 3, "no OpenCL device matches"},
+                    BadUse{"render -o OUT/a.png --memory 20", 4, "out of memory"},
+                    BadUse{"render -o /proc/penumbra/a.png", 1, "cannot be made"}));
 
 }  // namespace
 }  // namespace penumbra::tests
