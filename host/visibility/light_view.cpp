@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "kernels/shared/map_raster.h"
+
 namespace penumbra::visibility {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kMaxFov = 140 * kDegree, kSpare = 1.02;
 constexpr int kMaxEnlarged = 8192;
 /// Casters between this share of the near plane and the near plane keep depth 1; nearer ones are
 /// cut.
-constexpr double kNearClip = 1.0 / 16;
+constexpr double kNearClip = 1.0 / MAP_NEAR_CLIP;
 
 struct Fit {
     double tanHalfFov = 1, near = 1;
@@ -116,6 +118,18 @@ LightView fitLightView(const scene::AreaLight& light, const scene::Bounds& caste
     // X right, Y down, Z forward is right-handed: nothing is mirrored, fronts turn
     // counter-clockwise
     r.frontIsClockwise = 0;
+
+    auto& c = view.central;
+    c = r;
+    c.width = c.height = resolution;
+    const auto centralRow = [&](const glm::dvec3& axis) {
+        const glm::dvec3 a = focal * axis + 0.5 * resolution * light.axisZ;
+        return row(a, -glm::dot(a, origin));
+    };
+    c.rowX = centralRow(light.axisX);
+    c.rowY = centralRow(light.axisY);
+    c.rowW = row(light.axisZ, -glm::dot(light.axisZ, origin));
+    c.rowD = row(glm::dvec3(0), near * kNearClip);
     return view;
 }
 

@@ -21,6 +21,7 @@ MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings,
       settings_(settings),
       stride_(shared::gbufferStride(width * height)),
       receivers_(program, "receivers"),
+      pack_(program, "map_pack"),
       lookup32_(program, "map_lookup"),
       lookup16_(program, "map_lookup16"),
       average_(program, "map_average"),
@@ -101,16 +102,16 @@ void MultiView::allocateMaps(const LightView& view, int batch, bool wide) {
     if (settings_.depthBits == 32 || wide) maps32_.grow(*device_, "depth maps", texels);
 }
 
-void MultiView::run(const Inputs& inputs, double density, MapSource& source,
-                    Visibility& visibility) {
-    LightView view =
-        fitLightView(inputs.light, inputs.casters, inputs.centre, settings_.resolution, density);
+void MultiView::pack(const LightView& view, const MapBatch& batch) {
+    const auto texels = static_cast<std::uint32_t>(view.params.mapStride) *
+                        static_cast<std::uint32_t>(batch.viewCount);
+    pack_.launch({texels}, {64}, texels, *batch.maps32, *batch.maps16);
+}
+
+void MultiView::run(const Inputs& inputs, MapSource& source, Visibility& visibility) {
+    LightView view = fitLightView(inputs.light, inputs.casters, inputs.centre, settings_.resolution,
+                                  source.density());
     view.params.depthBits = settings_.depthBits;
-    if (view.density < density * 0.999)
-        warnings_.push_back(
-            fmt::format("light '{}': the enlarged view is capped at {} pixels: density {:.2f} of "
-                        "{:.2f}; use a smaller resolution or a larger near=",
-                        inputs.light.name, view.params.enlarged, view.density, density));
     if (!view.complete && settings_.outside == Outside::lit)
         warnings_.push_back(
             fmt::format("light '{}': its views cannot hold all casters, and receivers outside of "
@@ -143,6 +144,7 @@ void MultiView::run(const Inputs& inputs, double density, MapSource& source,
                       settings_.depthBits == 16 ? &maps16_ : nullptr};
         profiler.beginStage("depth maps");
         source.fill(maps);
+        if (wide && maps.maps16) pack(view, maps);
         profiler.beginStage("lighting");
         lookup(view, maps, light);
         if (inputs.depthMaps) keepMaps(view, maps, *inputs.depthMaps);

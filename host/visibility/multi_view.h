@@ -27,9 +27,11 @@ class MapSource {
     /// Called once per light, before its batches. May adapt `view.params`.
     virtual void begin(const Inputs& inputs, LightView& view, Buffer<float>& samples,
                        Buffer<shared::MultiViewCounters>& counters) = 0;
-    /// Enqueues filling all maps of the batch.
+    /// Pixels of the enlarged view per texel of a map, where the source looks through that view.
+    virtual double density() const { return 1; }
+    /// Enqueues filling all maps of the batch: maps32 where needsWideMaps(), else the narrower one.
     virtual void fill(const MapBatch& batch) = 0;
-    /// True if 16-bit maps need 32-bit ones beside them to be filled.
+    /// True if only 32-bit maps can be filled: 16-bit ones are packed from them.
     virtual bool needsWideMaps() const = 0;
     virtual bool grew() = 0;
 };
@@ -41,7 +43,7 @@ class MultiView {
 
     /// Receivers and one depth map: the least that it works with.
     static std::uint64_t plannedBytes(const MultiViewSettings& settings, int width, int height);
-    void run(const Inputs& inputs, double density, MapSource& source, Visibility& visibility);
+    void run(const Inputs& inputs, MapSource& source, Visibility& visibility);
     /// Reads the counters of the frame's lights (waits) and starts anew.
     Counts takeCounts();
     const std::vector<std::string>& warnings() const { return warnings_; }
@@ -65,6 +67,7 @@ class MultiView {
     };
     int batchSize(const LightView& view, bool wide) const;
     void allocateMaps(const LightView& view, int batch, bool wide);
+    void pack(const LightView& view, const MapBatch& batch);
     void lookup(const LightView& view, const MapBatch& batch, PerLight& light);
     void traceOutside(const Inputs& inputs, Visibility& visibility);
     void average(const LightView& view, const GBuffer& gbuffer, Visibility& visibility);
@@ -82,6 +85,7 @@ class MultiView {
     runtime::Kernel<shared::ReceiverParams, shared::MultiViewParams, Buffer<float>, Buffer<float>,
                     Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<shared::MultiViewCounters>>
         receivers_;
+    runtime::Kernel<std::uint32_t, Buffer<std::uint32_t>, Buffer<std::uint16_t>> pack_;
     Lookup<std::uint32_t> lookup32_;
     Lookup<std::uint16_t> lookup16_;
     runtime::Kernel<int, int, int, Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<float>>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The only list of techniques: a line here gives the CLI value, its settings, the shared test suite
 // and the benchmark of whole frames.
+#include "host/visibility/mvr.h"
 #include "host/visibility/none.h"
 #include "host/visibility/raytrace.h"
 #include "host/visibility/technique.h"
@@ -26,6 +27,11 @@ const std::vector<TechniqueEntry>& techniques() {
          "triangles make "
          "many points; partial opacity blocks a share of the samples",
          describeSettings<VwssSettings>, Vwss::plannedBytes, make<Vwss>},
+        {"mvr",
+         "multi-view rasterisation: every triangle into a depth map per sample", "[VWSS] 2.1, 4",
+         "cost grows with triangles times samples; aliasing of the maps' texels; partial opacity "
+         "blocks a share of the samples",
+         describeSettings<MvrSettings>, Mvr::plannedBytes, make<Mvr>},
         {"raytrace",
          "the reference: one ray per light sample and pixel, opacity and colour along it", "",
          "none but the light samples' number", describeSettings<RaytraceSettings>,

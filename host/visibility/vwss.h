@@ -44,7 +44,7 @@ class Vwss : public Technique {
     bool grew() override;
     Counts takeCounts() override;
     std::vector<SettingRow> settings() const override { return settingsInForce(settings_); }
-    std::vector<std::string> warnings() const override { return multiView_.warnings(); }
+    std::vector<std::string> warnings() const override;
 
   private:
     class Source;

@@ -68,10 +68,3 @@ kernel void depth_warp(const MultiViewParams params, const LookupParams views,
 #define OWNED_TEXEL ushort
 #define OWNED_KERNEL depth_warp_owned16
 #include "visibility/depth_warp_owned.inl"
-
-/// Packs 16-bit depths from the 32-bit texels that atomics need. One work-item per texel of all maps.
-kernel void depth_warp_pack(const uint count, global const uint* restrict wide,
-                            global ushort* restrict maps) {
-    const uint texel = get_global_id(0);
-    if (texel < count) maps[texel] = (ushort)wide[texel];
-}
