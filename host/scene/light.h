@@ -28,8 +28,12 @@ SampleChoice parseSampleCount(const std::string& text, SampleChoice base);
 Pattern parsePattern(const std::string& text);
 
 /// Offsets in [-1, 1]^2 (disk: in the unit disk), to be scaled by half the light's size.
-/// hammersley and poisson lie concentrically on disks; one sample lies at the centre.
+/// hammersley lies concentrically on disks, poisson is Bridson's in the shape itself; one sample
+/// lies at the centre.
 std::vector<glm::dvec2> samplePattern(const SampleChoice& choice, bool disk);
+struct AreaLight;
+/// Gives a light the samples of a choice; a point has one.
+void placeSamples(SampleChoice choice, AreaLight& light);
 
 /// A light at one time, in the world. Emits along the frame's third axis from a rectangle or disk
 /// in the plane of the first two; a sphere is a disk of its radius that faces C.

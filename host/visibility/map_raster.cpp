@@ -27,6 +27,7 @@ MapRaster::MapRaster(const runtime::Program& program, const MapRasterSettings& s
 shared::RasterView MapRaster::rasterView(const LightView& view) const {
     auto raster = view.central;
     selectCasters(settings_.cull, raster);
+    if (!settings_.castersOnly) raster.requireFlags = DRAW_RECEIVES;
     raster.triangleCount = static_cast<int>(mesh_->triangleCount);
     raster.conservative = settings_.coverage == Coverage::conservative ? 1 : 0;
     return raster;

@@ -19,6 +19,7 @@ struct MapRasterSettings {
     MapForm form = MapForm::full;
     Coverage coverage = Coverage::standard;
     Cull cull = Cull::automatic;
+    bool castersOnly = true;  ///< false: everything that receives shadows
     float biasConstant = 0;  ///< of depth (near / z), pushing it away from the light
     float biasSlope = 0;     ///< times the larger of the depth's steps per texel
 };

@@ -7,8 +7,9 @@ Mvr::Mvr(const TechniqueContext& context)
     : settings_(parseSettings<MvrSettings>("mvr", context.values)),
       shared_(context.device, "multi_view"),
       program_(context.device, "mvr"),
-      multiView_(context.device, settings_, context.width, context.height, shared_),
-      source_(program_, {settings_.form, settings_.coverage, settings_.cull, 0, 0}) {}
+      multiView_(shared_, settings_, context.width, context.height),
+      source_(program_, {settings_.form, settings_.coverage, settings_.cull}),
+      reader_(shared_, {settings_.pcf, settings_, false}) {}
 
 std::uint64_t Mvr::plannedBytes(const TechniqueContext& context) {
     return MultiView::plannedBytes(parseSettings<MvrSettings>("mvr", context.values), context.width,

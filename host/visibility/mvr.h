@@ -2,6 +2,7 @@
 // Multi-view rasterisation [VWSS] 2.1, 4: every triangle into the depth map of every light sample.
 // The rival of vwss: maps are exact up to texels and bias, and filtered by the same MultiView.
 #pragma once
+#include "host/visibility/map_lookup.h"
 #include "host/visibility/map_raster.h"
 
 namespace penumbra::visibility {
@@ -29,7 +30,7 @@ class Mvr : public Technique {
     explicit Mvr(const TechniqueContext& context);
     static std::uint64_t plannedBytes(const TechniqueContext& context);
     void run(const Inputs& inputs, Visibility& visibility) override {
-        multiView_.run(inputs, source_, visibility);
+        multiView_.run(inputs, inputs.light, source_, reader_, visibility);
     }
     bool grew() override { return source_.grew(); }
     Counts takeCounts() override;
@@ -41,6 +42,7 @@ class Mvr : public Technique {
     runtime::Program shared_, program_;
     MultiView multiView_;
     MapRaster source_;
+    MapLookup reader_;
 };
 
 }  // namespace penumbra::visibility

@@ -83,7 +83,8 @@ class Vwss::Source : public MapSource {
 Vwss::Vwss(const TechniqueContext& context)
     : settings_(parseSettings<VwssSettings>("vwss", context.values)),
       program_(context.device, "multi_view"),
-      multiView_(context.device, settings_, context.width, context.height, program_),
+      multiView_(program_, settings_, context.width, context.height),
+      reader_(program_, {settings_.pcf, settings_, false}),
       source_(std::make_unique<Source>(context.device, settings_, program_)) {}
 
 std::uint64_t Vwss::plannedBytes(const TechniqueContext& context) {
@@ -95,7 +96,7 @@ std::uint64_t Vwss::plannedBytes(const TechniqueContext& context) {
 Vwss::~Vwss() = default;
 
 void Vwss::run(const Inputs& inputs, Visibility& visibility) {
-    multiView_.run(inputs, *source_, visibility);
+    multiView_.run(inputs, inputs.light, *source_, reader_, visibility);
 }
 
 bool Vwss::grew() {

@@ -3,7 +3,7 @@
 // warped into one depth map per light sample.
 #pragma once
 #include "host/visibility/depth_warp.h"
-#include "host/visibility/multi_view.h"
+#include "host/visibility/map_lookup.h"
 #include "host/visibility/points.h"
 
 namespace penumbra::visibility {
@@ -51,6 +51,7 @@ class Vwss : public Technique {
     VwssSettings settings_;
     runtime::Program program_;
     MultiView multiView_;
+    MapLookup reader_;
     std::unique_ptr<Source> source_;
 };
 
