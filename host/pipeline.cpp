@@ -143,7 +143,11 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
                  "--size {}x{} is outside of 1x1 to {}x{} pixels", options.width, options.height,
                  RASTER_MAX_SIZE, RASTER_MAX_SIZE);
     visibility::findTechnique(options.technique);
-    sampleChoice(options, 0);
+    const auto pattern = sampleChoice(options, 0).pattern;
+    requireUsage(pattern != scene::Pattern::random || options.technique == "raytrace",
+                 "--light-pattern random gives each pixel samples of its own, which only technique "
+                 "raytrace can use; allowed for {}: hammersley, poisson, grid, jittered",
+                 options.technique);
     width_ = options.width * options.supersample;
     height_ = options.height * options.supersample;
     clips_ = scene::chooseAnimations(scene_, options.animation);

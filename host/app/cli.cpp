@@ -79,7 +79,8 @@ void addLights(CLI::App& render, Arguments& a) {
         .add_option("--light-samples", o.lightSamples,
                     "samples of each light: N, or MxN for a grid")
         ->capture_default_str();
-    render.add_option("--light-pattern", o.lightPattern, "hammersley, poisson, grid, jittered")
+    render.add_option("--light-pattern", o.lightPattern, "hammersley, poisson, grid, jittered; raytrace: also random, anew in each "
+                    "pixel")
         ->capture_default_str();
     render
         .add_option("--seed", o.seed, "of the pattern: a number, or frame for another each frame")

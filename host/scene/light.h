@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 namespace penumbra::scene {
 
-enum class Pattern { hammersley, poisson, grid, jittered };
+enum class Pattern { hammersley, poisson, grid, jittered, random };
 
 /// Which samples a light gets. columns x rows > 0: cells of a grid (on a disk those whose centre
 /// lies inside); else `count` samples of `pattern`.
@@ -48,6 +49,8 @@ struct AreaLight {
     double innerConeRad = 0, outerConeRad = 0;  ///< outer 0: no cone
     double fovRad = 0, nearMetres = 0;          ///< 0: fitted
     std::vector<glm::dvec2> samples;            ///< metres along axisX, axisY
+    /// Where set, rays go to random points of their own in each pixel, as many as there are samples.
+    std::optional<std::uint32_t> randomSeed;
     bool isPoint() const { return width <= 0 && height <= 0; }
 };
 

@@ -77,9 +77,9 @@ SampleChoice parseSampleCount(const std::string& text, SampleChoice choice) {
         requireUsage(choice.columns <= kMaxSamples && choice.rows <= kMaxSamples,
                      "--light-samples {} has more than {} samples", text, kMaxSamples);
         choice.count = choice.columns * choice.rows;
-        requireUsage(choice.pattern != Pattern::poisson,
-                     "--light-samples {} is a grid, and --light-pattern poisson is none; allowed: "
-                     "grid, jittered",
+        requireUsage(choice.pattern != Pattern::poisson && choice.pattern != Pattern::random,
+                     "--light-samples {} is a grid, and --light-pattern poisson and random are "
+                     "none; allowed: grid, jittered",
                      text);
         if (choice.pattern != Pattern::jittered) choice.pattern = Pattern::grid;
     }
@@ -93,8 +93,10 @@ Pattern parsePattern(const std::string& text) {
     if (text == "poisson") return Pattern::poisson;
     if (text == "grid") return Pattern::grid;
     if (text == "jittered") return Pattern::jittered;
+    if (text == "random") return Pattern::random;
     throw Error(
-        fmt::format("--light-pattern '{}' is unknown; allowed: hammersley, poisson, grid, jittered",
+        fmt::format("--light-pattern '{}' is unknown; allowed: hammersley, poisson, grid, jittered, "
+                    "random",
                     text),
         ExitCode::usage);
 }
@@ -121,6 +123,7 @@ std::vector<glm::dvec2> samplePattern(const SampleChoice& choice, bool disk) {
 void placeSamples(SampleChoice choice, AreaLight& light) {
     if (light.isPoint()) choice.count = 1;
     light.samples.clear();
+    if (choice.pattern == Pattern::random && !light.isPoint()) light.randomSeed = choice.seed;
     for (const auto& p : samplePattern(choice, light.disk))
         light.samples.emplace_back(p.x * light.width / 2, p.y * light.height / 2);
 }

@@ -39,9 +39,11 @@ void EssmSource::begin(const Inputs& inputs, LightView& view, Buffer<float>& sam
     p.exponent = settings_.exponent;
     p.leak = settings_.leak;
     p.leastRadius = settings_.leastRadius;
-    // Depths are spread over the casters; receivers behind them share the last one
+    // Depths are spread over the casters and half their radius behind them; receivers farther away
+    // share the last one
     const double nearZ = view.params.near;
-    const double range = std::max(view.farthestCaster - nearZ, 1e-6 * nearZ);
+    const double behind = 0.5 * inputs.casters.radius();
+    const double range = std::max(view.farthestCaster + behind - nearZ, 1e-6 * nearZ);
     p.nearZ = static_cast<float>(nearZ);
     p.inverseRange = static_cast<float>(1 / range);
     // A disk becomes the square of its area
