@@ -36,7 +36,7 @@ void toneMapPlanes(std::vector<Plane>& rgb, const Plane* alpha, float gain) {
 
 float comparableValue(float value, float other) {
     if (!std::isnan(value)) return std::clamp(value, 0.0F, 1.0F);
-    return !std::isnan(other) && other < 0.5F ? 1.0F : 0.0F;
+    return other < 0.5F ? 1.0F : 0.0F;  // 0 for two NaNs
 }
 
 void requireComparable(const Picture& a, const Picture& b, const std::vector<bool>& mask) {

@@ -33,7 +33,7 @@ TEST(PictureTest, LinearColoursAreShownAsPngFilesShowThem) {
     frame.width = 5;
     frame.height = 1;
     frame.exposure = 0.5;
-    frame.rgba = {0.01F, 0.02F, 0,    1,    0.4F, 0.2F, 0.3F, 1,    9,     2,
+    frame.rgba = {0.01F, 0.02F, 0,    1,    0.4F, 0.3F, 0.2F, 1,    9,     2,
                   1,     1,     0.2F, 0.1F, 0.3F, 0.5F, -1,   0.5F, 0.25F, 1};
     std::vector<Channel> channels;
     const char* names[] = {"R", "G", "B", "A"};
@@ -48,6 +48,8 @@ TEST(PictureTest, LinearColoursAreShownAsPngFilesShowThem) {
     for (std::size_t i = 0; i < 5; ++i)
         for (std::size_t c = 0; c < 3; ++c)
             EXPECT_NEAR(255 * picture->planes[c][i], bytes[3 * i + c], 0.6F) << i << ", " << c;
+    // By hand: 0.4 at a gain of 0.5, less the 4 % that the tone curve takes off, is sRGB(0.16)
+    EXPECT_NEAR(picture->planes[0][1], 0.437, 0.001);
 }
 
 TEST(PictureTest, EncodedColoursStayAsTheyAre) {
@@ -58,21 +60,33 @@ TEST(PictureTest, EncodedColoursStayAsTheyAre) {
     EXPECT_EQ(picture->encoding, Encoding::srgb);
 }
 
-TEST(PictureTest, VisibilityStaysAsItIsWithOneOrThreePlanes) {
+TEST(PictureTest, VisibilityAndAlbedoStayAsTheyAre) {
     const auto image = linearImage({{"visibility.key.R", {0.3F}, {}},
                                     {"visibility.sky.R", {0.1F}, {}},
                                     {"visibility.sky.G", {0.2F}, {}},
-                                    {"visibility.sky.B", {0.3F}, {}}});
+                                    {"visibility.sky.B", {0.3F}, {}},
+                                    {"albedo.R", {0.4F}, {}},
+                                    {"albedo.G", {0.5F}, {}},
+                                    {"albedo.B", {0.6F}, {}}});
     const auto key = pictureOf(image, "visibility.key", 4);
     EXPECT_EQ(key->planes, (std::vector<metrics::Plane>{{0.3F}}));
     EXPECT_EQ(key->encoding, Encoding::linear);
     const auto sky = pictureOf(image, "visibility.sky", 4);
     EXPECT_EQ(sky->planes, (std::vector<metrics::Plane>{{0.1F}, {0.2F}, {0.3F}}));
+    const auto albedo = pictureOf(image, "albedo", 4);
+    ASSERT_TRUE(albedo);
+    EXPECT_EQ(albedo->planes, (std::vector<metrics::Plane>{{0.4F}, {0.5F}, {0.6F}}));
+    EXPECT_EQ(albedo->encoding, Encoding::linear);
 }
 
 TEST(PictureTest, DepthNormalsAndIdsAreNoPictures) {
-    const auto image = linearImage({{"Z", {3}, {}}, {"N.X", {1}, {}}, {"id.object", {1}, {}}});
-    for (const char* layer : {"Z", "N", "id", "RGB", "visibility.key"})
+    const auto image = linearImage({{"Z", {3}, {}},
+                                    {"N.X", {1}, {}},
+                                    {"id.object", {1}, {}},
+                                    {"unknown.R", {1}, {}},
+                                    {"unknown.G", {1}, {}},
+                                    {"unknown.B", {1}, {}}});
+    for (const char* layer : {"Z", "N", "id", "unknown", "RGB", "visibility.key"})
         EXPECT_FALSE(pictureOf(image, layer, 1)) << layer;
 }
 
@@ -89,13 +103,15 @@ TEST(PictureTest, TheGainIsThatOfTheFirstImageWhichHasOne) {
 
 TEST(PictureTest, AColourWithANotANumberIsOneAndInfinityIsWhite) {
     const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
-    const auto picture = pictureOf(
-        linearImage(
-            {{"R", {nan, infinity}, {}}, {"G", {0, infinity}, {}}, {"B", {0, infinity}, {}}}),
-        "RGB", 1);
-    for (const auto& plane : picture->planes) {
-        EXPECT_TRUE(std::isnan(plane[0]));
-        EXPECT_NEAR(plane[1], 1, 1e-3);
+    for (std::size_t broken = 0; broken < 3; ++broken) {
+        std::vector<Channel> channels;
+        for (const char* name : {"R", "G", "B"}) channels.push_back({name, {0, infinity}, {}});
+        channels[broken].values[0] = nan;
+        const auto picture = pictureOf(linearImage(channels), "RGB", 1);
+        for (const auto& plane : picture->planes) {
+            EXPECT_TRUE(std::isnan(plane[0])) << broken;
+            EXPECT_NEAR(plane[1], 1, 1e-3);
+        }
     }
 }
 
