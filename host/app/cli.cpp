@@ -147,6 +147,11 @@ CLI::App* addDiff(CLI::App& app, Arguments& a) {
     diff.add_option("--fail-rmse", a.diff.failRmse, "largest root mean square difference");
     diff.add_option("--fail-max", a.diff.failMax, "largest difference");
     diff.add_option("--fail-psnr", a.diff.failPsnr, "least peak signal-to-noise ratio, dB");
+    diff.add_option("--fail-ssim", a.diff.failSsim, "least structural similarity, 1 if equal");
+    diff.add_option("--fail-flip", a.diff.failFlip, "largest mean FLIP, 0 if equal, at most 1");
+    diff.add_option("--pixels-per-degree", a.diff.pixelsPerDegree,
+                    "of the screen that FLIP assumes, 1 to 1000")
+        ->capture_default_str();
     addRepeated(diff, "--fail-share", a.diff.failShares,
                 "STEP=SHARE: largest share of pixels beyond STEP/255; steps 1, 4, 16");
     diff.add_flag("--json", a.diff.json, "JSON on stdout");

@@ -17,7 +17,8 @@ struct RenderArguments {
 
 struct DiffArguments {
     std::string a, b, layer, mask;
-    std::optional<double> failRmse, failMax, failPsnr;
+    std::optional<double> failRmse, failMax, failPsnr, failSsim, failFlip;
+    double pixelsPerDegree = 67;
     std::vector<std::string> failShares;  ///< "4=0.01"
     bool json = false;
 };

@@ -11,6 +11,7 @@ namespace penumbra::image {
 /// An image read back: named planes of width * height floats (uint channels converted).
 struct LoadedImage {
     int width = 0, height = 0;
+    bool srgb = false;  ///< R, G, B are sRGB-encoded (PNG), not linear (EXR)
     std::vector<Channel> channels;
     std::vector<std::pair<std::string, std::string>> header;
     const std::vector<float>* find(const std::string& name) const;

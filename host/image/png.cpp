@@ -88,6 +88,7 @@ LoadedImage readPngFile(const std::string& path) try {
     png_set_interlace_handling(r.png);
     png_read_update_info(r.png, r.info);
     LoadedImage image;
+    image.srgb = true;
     image.width = static_cast<int>(png_get_image_width(r.png, r.info));
     image.height = static_cast<int>(png_get_image_height(r.png, r.info));
     const auto rowBytes = png_get_rowbytes(r.png, r.info);

@@ -31,6 +31,7 @@ std::vector<std::pair<std::string, std::string>> Pipeline::header() const {
     if (!options_.lights.empty()) add("lights", fmt::format("{}", fmt::join(options_.lights, " ")));
     add("temporal", fmt::format("{}", options_.temporal));
     add("exposure", options_.exposure);
+    add("gain", fmt::format("{:.9g}", exposure_));  // what exposure came to; diff shows EXR with it
     add("aovs", fmt::format("{}", fmt::join(options_.aovs, ",")));
     add("device", device_->info().name);
     add("driver", device_->info().platform + " " + device_->info().driver);
