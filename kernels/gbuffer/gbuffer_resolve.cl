@@ -99,8 +99,9 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
                   unpackColour(colours[s2]) * b.z;
     if (draw.flags & DRAW_TEXTURED) {
         const float4 uv = readUvs(uvs, s0, s1, s2, b);
-        const float4 right = readUvs(uvs, s0, s1, s2, rasterBarycentrics(v, x + 1, y));
-        const float4 below = readUvs(uvs, s0, s1, s2, rasterBarycentrics(v, x, y + 1));
+        // Neighbours on the plane: clamped into a small triangle they would tell too small a footprint
+        const float4 right = readUvs(uvs, s0, s1, s2, rasterPlaneBarycentrics(v, x + 1, y));
+        const float4 below = readUvs(uvs, s0, s1, s2, rasterPlaneBarycentrics(v, x, y + 1));
         const Texture colour = m->baseColorTexture, glow = m->emissiveTexture;
         const Texture rough = m->metallicRoughnessTexture, bumps = m->normalTexture;
         if (colour.offset >= 0)
