@@ -20,14 +20,17 @@ inline float4 unpackColour(uint rgba) {
                     (float)(rgba >> 24)) * (1.0f / 255.0f);
 }
 
-/// Tangent of a triangle from its uv gradient, for meshes that bring none.
+/// Tangent of a triangle from its uv gradient, for meshes that bring none. Its bitangent points up in the
+/// image, against v: glTF 2.0, 3.9.3.
 inline float3 triangleTangent(float3 p0, float3 p1, float3 p2, float4 uv0, float4 uv1, float4 uv2,
-                              const Texture* t, float* handedness) {
+                              const Texture* t, float3 normal, float* handedness) {
     const float2 a = textureTransform(t, uv0);
     const float2 d1 = textureTransform(t, uv1) - a, d2 = textureTransform(t, uv2) - a;
     const float determinant = d1.x * d2.y - d2.x * d1.y;
-    *handedness = determinant < 0.0f ? -1.0f : 1.0f;
+    // dP/du and -dP/dv, both times the determinant
     const float3 along = (p1 - p0) * d2.y - (p2 - p0) * d1.y;
+    const float3 up = (p1 - p0) * d2.x - (p2 - p0) * d1.x;
+    *handedness = dot(cross3(normal, along), up) < 0.0f ? -1.0f : 1.0f;
     return normalizeOr(determinant < 0.0f ? -along : along, (float3)(1.0f, 0.0f, 0.0f));
 }
 
@@ -119,7 +122,7 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
             float handedness = tangents[4 * i0 + 3];
             if (handedness == 0.0f)
                 tangent = triangleTangent(p0, p1, p2, vload4(s0, uvs), vload4(s1, uvs), vload4(s2, uvs),
-                                          &bumps, &handedness);
+                                          &bumps, normal, &handedness);
             normal = applyNormalMap(normal, tangent, handedness,
                                     textureRead(texels, &bumps, uv, textureLevel(&bumps, uv, right, below)),
                                     m->normalScale);
