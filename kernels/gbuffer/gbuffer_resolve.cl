@@ -88,7 +88,7 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
     float3 geometric = normalizeOr(cross3(p1 - p0, p2 - p0), (float3)(0.0f, 1.0f, 0.0f));
     if (dot(geometric, towardsEye) < 0.0f) geometric = -geometric;
     float3 normal = normalizeOr(interpolate3(normals, i0, i1, i2, b), geometric);
-    if (dot(normal, geometric) < 0.0f) normal = -normal;
+    const int back = dot(normal, geometric) < 0.0f;  // seen from behind: reversed, bumps included
 
     // Material
     global const Material* m = &materials[draw.material];
@@ -119,7 +119,7 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
         if (bumps.offset >= 0) {
             float3 tangent = (vload4(i0, tangents) * b.x + vload4(i1, tangents) * b.y +
                               vload4(i2, tangents) * b.z).xyz;
-            float handedness = tangents[4 * i0 + 3];
+            float handedness = draw.flags & DRAW_MIRRORED ? -tangents[4 * i0 + 3] : tangents[4 * i0 + 3];
             if (handedness == 0.0f)
                 tangent = triangleTangent(p0, p1, p2, vload4(s0, uvs), vload4(s1, uvs), vload4(s2, uvs),
                                           &bumps, normal, &handedness);
@@ -128,6 +128,7 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
                                     m->normalScale);
         }
     }
+    if (back) normal = -normal;
     if (draw.flags & DRAW_UNLIT) {
         emissive += albedo.xyz;
         albedo = (float4)(0.0f);
