@@ -130,7 +130,7 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
     }
     if (back) normal = -normal;
     if (draw.flags & DRAW_UNLIT) {
-        emissive += albedo.xyz;
+        emissive = albedo.xyz;  // KHR_materials_unlit: nothing of the lit model counts
         albedo = (float4)(0.0f);
         metallic = 0.0f;
     }
