@@ -6,6 +6,7 @@
 #include "lib/area_light.h"
 #include "lib/transform.h"
 #include "shared/gbuffer.h"
+#include "shared/mesh.h"
 
 #define SHADE_MIN_ROUGHNESS 0.2f
 
@@ -128,7 +129,9 @@ kernel void shade_light(const ShadeParams params, const ShadeLight light,
     const VF cone = coneFalloff(&light, s.position);
     const VF diffuse = irradiance * 0.31830989f * (1.0f - metallic) * cone;
     const VF lit = V_SELECT((VF)0.0f, (VF)1.0f, V_MASK(covered) & faces);
-    const VF white = V_SELECT((VF)0.0f, cone, V_MASK(albedo.x + albedo.y + albedo.z > 0.0f));
+    // Unlit surfaces reflect nothing; black ones do
+    const VI unlit = V_AS_INT(V_LOAD(planes, GB_FLAGS * stride + pixel)) & (VI)DRAW_UNLIT;
+    const VF white = V_SELECT(cone, (VF)0.0f, V_MASK(unlit != 0));
     const VF albedos[3] = {albedo.x, albedo.y, albedo.z};
     const float radiances[3] = {light.radiance.x, light.radiance.y, light.radiance.z};
     for (int channel = 0; channel < 3; ++channel) {
