@@ -2,7 +2,8 @@
 // Shading: reflectance x visibility of one light after the other.
 //   G-buffer, visibility --closed-form irradiance, GGX over 16 light points--> colour
 // Source: Lambert 1760 (irradiance of a polygon); Walter et al. 2007 (GGX) as in glTF 2.0 appendix B.
-// Differs: a reflection integrates 16 fixed points of the light, so roughness is at least SHADE_MIN_ROUGHNESS.
+// Differs: a reflection integrates 16 fixed points of the light, so roughness is at least SHADE_MIN_ROUGHNESS;
+// the diffuse part keeps what the Fresnel term reflects (glTF weighs it by 1 - F).
 #include "lib/area_light.h"
 #include "lib/transform.h"
 #include "shared/gbuffer.h"
