@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The nearest triangle of each pixel, with 64-bit atomics, against its double-precision twin.
-#include "tests/reference/gbuffer_raster_run.h"
+#include "tests/reference/gbuffer_raster_checks.h"
+#include "tests/support/fixtures.h"
 
 namespace penumbra::tests {
 namespace {

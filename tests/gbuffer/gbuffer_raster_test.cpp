@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The nearest triangle of each pixel, with 32-bit atomics, against its double-precision twin.
-#include "tests/reference/gbuffer_raster_run.h"
+#include <gtest/gtest.h>
+
+#include "tests/reference/gbuffer_raster_checks.h"
 
 namespace penumbra::tests {
 namespace {

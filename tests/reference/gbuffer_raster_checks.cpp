@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "tests/reference/gbuffer_raster_run.h"
+#include "tests/reference/gbuffer_raster_checks.h"
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
 #include <random>
 
 #include "host/gbuffer/raster.h"
+#include "tests/reference/gbuffer_raster_ref.h"
 #include "tests/reference/gbuffer_run.h"
+#include "tests/support/fixtures.h"
 
 namespace penumbra::tests {
 namespace {
@@ -16,6 +20,20 @@ template <typename... Extra>
 using Kernels = gbuffer::RasterKernels<Buffer<shared::Material>, Buffer<float>,
                                        Buffer<std::uint32_t>, Buffer<std::uint32_t>, Extra...>;
 using Words = Buffer<std::uint32_t>;
+
+/// What the kernels leave per pixel.
+struct RasterImage {
+    int width = 0, height = 0;
+    std::vector<float> depths;
+    std::vector<int> triangles;  ///< -1: none
+};
+
+/// How an image differs from the twin.
+struct RasterDifference {
+    int wrong = 0;    ///< pixels whose triangle cannot be the nearest, whatever snapping does
+    int decided = 0;  ///< pixels where snapping, or an alpha at its threshold, chose another one
+    int covered = 0;  ///< by any triangle, according to the twin
+};
 
 shared::RasterView viewOf(const scene::CameraFrame& camera, int width, int height) {
     auto view = scene::rasterView(camera, glm::dvec3(0), width, height);
@@ -63,22 +81,6 @@ std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> run64(
     return {depths, ids};
 }
 
-/// From fewer pixels than a work-group has to triangles of many tiles.
-constexpr std::pair<int, int> kSizes[] = {{7, 5}, {33, 17}, {61, 37}, {131, 71}};
-
-/// `share` of the pixels must be covered, so that there was something to compare.
-void expectLikeTwin(const RasterImage& image, const RasterReference& twin, double share) {
-    const auto difference = compareRaster(image, twin);
-    const double pixels = image.width * image.height;
-    // The comparison knows by how much snapping may move a depth; what it cannot know is a vertex
-    // that float snaps to the other neighbour and that moves an edge over a centre: 1 in 2000
-    EXPECT_LE(difference.wrong, pixels / 2000) << image.width << " x " << image.height;
-    EXPECT_LE(difference.decided, pixels / 50 + 1) << image.width << " x " << image.height;
-    EXPECT_GT(difference.covered, share * pixels);
-}
-
-}  // namespace
-
 RasterImage rasterise(RasterPath path, const scene::Scene& scene, const scene::CameraFrame& camera,
                       int width, int height) {
     geometry::Geometry geometry(program("frame"), scene, glm::dvec3(0));
@@ -124,6 +126,21 @@ RasterDifference compareRaster(const RasterImage& image, const RasterReference& 
     return difference;
 }
 
+/// From fewer pixels than a work-group has to triangles of many tiles.
+constexpr std::pair<int, int> kSizes[] = {{7, 5}, {33, 17}, {61, 37}, {131, 71}};
+
+/// `share` of the pixels must be covered, so that there was something to compare.
+void expectLikeTwin(const RasterImage& image, const RasterReference& twin, double share) {
+    const auto difference = compareRaster(image, twin);
+    const double pixels = image.width * image.height;
+    // The comparison knows by how much snapping may move a depth; what it cannot know is a vertex
+    // that float snaps to the other neighbour and that moves an edge over a centre: 1 in 2000
+    EXPECT_LE(difference.wrong, pixels / 2000) << image.width << " x " << image.height;
+    EXPECT_LE(difference.decided, pixels / 50 + 1) << image.width << " x " << image.height;
+    EXPECT_GT(difference.covered, share * pixels);
+}
+
+/// Double-sided triangles of a node each; every third is small.
 SceneBuilder overlappingTriangles(unsigned seed, int count) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> at(-2, 2), deep(-5, 2.5F), small(-0.2F, 0.2F);
@@ -141,6 +158,7 @@ SceneBuilder overlappingTriangles(unsigned seed, int count) {
     return builder;
 }
 
+/// The same around an eye at (0, 0, 4).
 SceneBuilder surroundingTriangles(unsigned seed, int count) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> at(-3, 3);
@@ -154,6 +172,7 @@ SceneBuilder surroundingTriangles(unsigned seed, int count) {
     return builder;
 }
 
+/// The same with an alpha of factor x texture, half of them with vertex colours as well.
 SceneBuilder texturedTriangles(unsigned seed, int count, scene::AlphaMode mode) {
     auto builder = overlappingTriangles(seed, count);
     auto& scene = builder.scene();
@@ -182,6 +201,7 @@ SceneBuilder texturedTriangles(unsigned seed, int count, scene::AlphaMode mode) 
     return builder;
 }
 
+/// Triangles at `layers` depths for pixelCamera().
 SceneBuilder exactTriangles(unsigned seed, int count, int layers, glm::dvec2 extent) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> x(0, extent.x), y(0, extent.y);
@@ -197,6 +217,8 @@ SceneBuilder exactTriangles(unsigned seed, int count, int layers, glm::dvec2 ext
     }
     return builder;
 }
+
+}  // namespace
 
 void expectOverlappingTrianglesSorted(RasterPath path) {
     const auto camera = perspectiveCamera({0.2, 0.1, 4}, {0, 0, 0}, 50);
