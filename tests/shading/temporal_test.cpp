@@ -19,23 +19,27 @@ namespace {
 constexpr std::pair<int, int> kSizes[] = {{7, 5}, {33, 17}, {61, 37}};
 
 struct Motion {
-    bool camera = false, surfaces = false, orthographic = false;
+    double camera = 0;  ///< speed, to either side
+    bool surfaces = false, orthographic = false;
 };
 
-/// A wall; before it a mesh of two layers, so that parallax uncovers parts of the same object; and
-/// a plate of its own.
+/// A wall; before it a mesh of three layers, two of them 4 % of their depth apart, so that parallax
+/// uncovers parts of the same object; a plate of its own; and one so near to the wall (0.5 %) that
+/// only its name tells it apart.
 scene::Scene stage() {
     SceneBuilder builder;
     builder.material().doubleSided = true;
     builder.addQuad({-8, -6, -2}, {16, 0, 0}, {0, 12, 0});
-    builder.addMesh({{-1.5F, -1, 0},
-                     {0.2F, -1, 0},
-                     {0.2F, 1, 0.2F},
-                     {-0.8F, -1.2F, -1},
-                     {1.2F, -1.2F, -1},
-                     {0.2F, 1.4F, -1}},
-                    {0, 1, 2, 3, 4, 5});
+    std::vector<glm::vec3> corners;
+    std::vector<std::uint32_t> indices;
+    for (const float z : {0.0F, -0.16F, -1.0F})
+        for (const glm::vec2 v : {glm::vec2(-1.5F, -1), glm::vec2(0.2F, -1), glm::vec2(0.2F, 1)}) {
+            indices.push_back(static_cast<std::uint32_t>(corners.size()));
+            corners.emplace_back(v.x - 2 * z, v.y - z, z);
+        }
+    builder.addMesh(corners, indices);
     builder.addQuad({0.3F, -0.6F, 0.8F}, {0.7F, 0, 0}, {0, 0.9F, 0.2F});
+    builder.addQuad({-2.5F, 0.4F, -1.97F}, {2, 0, 0}, {0, 1.2F, 0});
     return builder.scene();
 }
 
@@ -76,7 +80,7 @@ class Sequence {
 
   private:
     scene::CameraFrame cameraAt(int number) const {
-        const double t = motion_.camera ? 0.13 * number : 0;
+        const double t = 0.13 * motion_.camera * number;
         auto camera = perspectiveCamera({0.9 * t, 0.3 - 0.4 * t, 4 - 0.5 * t}, {0.2 * t, 0, 0}, 45);
         camera.orthographic = motion_.orthographic;
         camera.xmag = 2.2, camera.ymag = 1.6;
@@ -87,6 +91,7 @@ class Sequence {
         const double t = motion_.surfaces ? 0.11 * number : 0;
         scene_.nodes[1].matrix[3] = {-t, 0.5 * t, 0.3 * t, 1};
         scene_.nodes[2].matrix[3] = {0.8 * t, 0.2 * t, -0.4 * t, 1};
+        scene_.nodes[3].matrix[3] = {2 * t, -t, 0, 1};
     }
     TemporalFrame frameOf(const scene::CameraFrame& camera) {
         const auto stride = static_cast<std::size_t>(pass_.result().planeStride);
@@ -174,20 +179,21 @@ TEST(Temporal, WindowsGrowToTheirLengthAndThenSlide) {
 }
 
 TEST(Temporal, MovingCamerasFollowStillSurfaces) {
-    for (const auto& [width, height] : kSizes) {
-        Sequence sequence(width, height, 5, {true, false, false}, 1);
-        std::vector<int> counts;
-        for (int frame = 0; frame < 7; ++frame) counts = sequence.next();
-        if (width < 33) continue;
-        // What just came into view is alone, what is seen long has the whole window
-        EXPECT_GT(countOf(counts, 1), 20U);
-        EXPECT_GT(countOf(counts, 5), 100U);
-    }
+    for (const double speed : {-1.0, 1.0, 3.0})
+        for (const auto& [width, height] : kSizes) {
+            Sequence sequence(width, height, 5, {speed, false, false}, 1);
+            std::vector<int> counts;
+            for (int frame = 0; frame < 7; ++frame) counts = sequence.next();
+            if (width < 33) continue;
+            // What just came into view is alone, what is seen long has the whole window
+            EXPECT_GT(countOf(counts, 1), 20U);
+            EXPECT_GT(countOf(counts, 5), 100U);
+        }
 }
 
 TEST(Temporal, MovingSurfacesAreFollowedByAStillCamera) {
     for (const auto& [width, height] : kSizes) {
-        Sequence sequence(width, height, 3, {false, true, false}, 3);
+        Sequence sequence(width, height, 3, {0, true, false}, 3);
         for (int frame = 0; frame < 6; ++frame) sequence.next();
     }
 }
@@ -195,7 +201,7 @@ TEST(Temporal, MovingSurfacesAreFollowedByAStillCamera) {
 TEST(Temporal, CameraAndSurfacesMayMoveAtOnce) {
     for (const bool orthographic : {false, true})
         for (const auto& [width, height] : kSizes) {
-            Sequence sequence(width, height, 4, {true, true, orthographic}, 1);
+            Sequence sequence(width, height, 4, {-1, true, orthographic}, 1);
             std::vector<int> counts;
             for (int frame = 0; frame < 6; ++frame) counts = sequence.next();
             if (width < 33) continue;
@@ -204,12 +210,12 @@ TEST(Temporal, CameraAndSurfacesMayMoveAtOnce) {
 }
 
 TEST(Temporal, AWindowOfOneFrameLeavesVisibilityAlone) {
-    Sequence sequence(33, 17, 1, {true, true, false}, 1);
+    Sequence sequence(33, 17, 1, {1, true, false}, 1);
     for (int frame = 0; frame < 3; ++frame) sequence.next();
 }
 
 TEST(Temporal, RepeatedFramesCountOnceAndResetForgets) {
-    Sequence sequence(33, 17, 3, {true, true, false}, 1);
+    Sequence sequence(33, 17, 3, {1, true, false}, 1);
     sequence.next();
     sequence.next(2);
     sequence.next(3);
