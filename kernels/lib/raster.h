@@ -189,21 +189,33 @@ inline int rasterTileOutside(const RasterTriangle* t, int left, int top, int* ba
     return outside;
 }
 
-/// Perspective-correct barycentric coordinates at a pixel's centre, from vertices before clipping.
-/// Snapping may have put the centre slightly outside: clamped into the triangle.
-inline float3 rasterBarycentrics(const RasterVertex* v, int x, int y) {
+/// Perspective-correct barycentric coordinates at a pixel's centre, up to a factor.
+inline float3 rasterWeights(const RasterVertex* v, int x, int y) {
     const float px = (float)x + 0.5f, py = (float)y + 0.5f;
     float sx[3], sy[3];
     for (int i = 0; i < 3; ++i) {
         sx[i] = fma(-px, v[i].w, v[i].x);
         sy[i] = fma(-py, v[i].w, v[i].y);
     }
-    float3 b = (float3)(sx[1] * sy[2] - sx[2] * sy[1], sx[2] * sy[0] - sx[0] * sy[2],
-                        sx[0] * sy[1] - sx[1] * sy[0]);
+    return (float3)(sx[1] * sy[2] - sx[2] * sy[1], sx[2] * sy[0] - sx[0] * sy[2],
+                    sx[0] * sy[1] - sx[1] * sy[0]);
+}
+
+/// Perspective-correct barycentric coordinates at a pixel's centre, from vertices before clipping.
+/// Snapping may have put the centre slightly outside: clamped into the triangle.
+inline float3 rasterBarycentrics(const RasterVertex* v, int x, int y) {
+    float3 b = rasterWeights(v, x, y);
     if (b.x + b.y + b.z < 0.0f) b = -b;
     b = max(b, (float3)(0.0f));
     const float sum = b.x + b.y + b.z;
     return sum > 0.0f ? b / sum : (float3)(1.0f, 0.0f, 0.0f);
+}
+
+/// The same on the triangle's plane, also outside of the triangle; not finite where a pixel sees the plane
+/// edge-on.
+inline float3 rasterPlaneBarycentrics(const RasterVertex* v, int x, int y) {
+    const float3 b = rasterWeights(v, x, y);
+    return b / (b.x + b.y + b.z);
 }
 
 #endif
