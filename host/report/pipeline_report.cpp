@@ -59,8 +59,9 @@ std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, 
                                   {"maxLaunchMs", s.maxLaunchMs}});
     if (!device_->profiler().timestampsWork())
         warnOnce(
-            "the device's timestamps are zero: stages are timed by the wall clock, one launch at a "
-            "time");
+            fmt::format("the timestamps of device {} are zero: stages are timed by the wall clock, "
+                        "one launch at a time",
+                        device_->info().name));
     if (const auto dropped = geometry_->counts().nonFiniteVertices)
         warnOnce(fmt::format("{} vertices are not finite: their triangles are dropped", dropped));
     if (counts.nearPoints)

@@ -15,11 +15,6 @@ inline float3 interpolate3(global const float* values, uint v0, uint v1, uint v2
     return load3(values, v0) * b.x + load3(values, v1) * b.y + load3(values, v2) * b.z;
 }
 
-inline float4 unpackColour(uint rgba) {
-    return (float4)((float)(rgba & 255), (float)((rgba >> 8) & 255), (float)((rgba >> 16) & 255),
-                    (float)(rgba >> 24)) * (1.0f / 255.0f);
-}
-
 /// Tangent of a triangle from its uv gradient, for meshes that bring none. Its bitangent points up in the
 /// image, against v: glTF 2.0, 3.9.3.
 inline float3 triangleTangent(float3 p0, float3 p1, float3 p2, float4 uv0, float4 uv1, float4 uv2,

@@ -29,6 +29,12 @@ inline float3 pointOf(const MultiViewParams* p, int x, int y, float depth) {
                     fma((float)y + 0.5f - half_, ratio, p->centre), p->near / z);
 }
 
+/// Texels that the views span together, about the centre: what fixed-point coordinates range over. At
+/// density 1 this is the enlarged view's size, but points lie as far out at any other density.
+inline float fixedExtent(const MultiViewParams* p) {
+    return (float)p->resolution * (1.0f + p->setBack / p->near);
+}
+
 inline ushort pointToFixed(float value, float low, float extent) {
     return (ushort)clamp(fma((value - low) / extent, 65535.0f, 0.5f), 0.0f, 65535.0f);
 }
@@ -48,7 +54,7 @@ inline void storePoint(const MultiViewParams* p, uint slot, float3 point, global
         vstore_half_rte(point.y - p->centre, c + slot, halves);
         vstore_half_rte(point.z, 2 * c + slot, halves);
     } else {
-        const float low = p->centre - 0.5f * (float)p->enlarged, extent = (float)p->enlarged;
+        const float extent = fixedExtent(p), low = p->centre - 0.5f * extent;
         points16[slot] = pointToFixed(point.x, low, extent);
         points16[c + slot] = pointToFixed(point.y, low, extent);
         points16[2 * c + slot] = pointToFixed(point.z, 0.0f, 1.0f);

@@ -117,12 +117,13 @@ inline int surfaceLogs(const RaySurfaces* s, uint triangle, float3 b, int logs[3
     }
     float4 colour = m->baseColor;
     const Texture t = m->baseColorTexture;
-    if (t.offset >= 0) {
-        const int v0 = (int)s->indices[3 * triangle] + draw.sourceOffset;
-        const int v1 = (int)s->indices[3 * triangle + 1] + draw.sourceOffset;
-        const int v2 = (int)s->indices[3 * triangle + 2] + draw.sourceOffset;
-        colour *= textureRead(s->texels, &t, readUvs(s->uvs, v0, v1, v2, b), 0);
-    }
+    const int v0 = (int)s->indices[3 * triangle] + draw.sourceOffset;
+    const int v1 = (int)s->indices[3 * triangle + 1] + draw.sourceOffset;
+    const int v2 = (int)s->indices[3 * triangle + 2] + draw.sourceOffset;
+    if (t.offset >= 0) colour *= textureRead(s->texels, &t, readUvs(s->uvs, v0, v1, v2, b), 0);
+    if (draw.flags & DRAW_COLOURS)
+        colour *= unpackColour(s->colours[v0]) * b.x + unpackColour(s->colours[v1]) * b.y +
+                  unpackColour(s->colours[v2]) * b.z;
     const float colours[3] = {colour.x, colour.y, colour.z};
     for (int c = 0; c < 3; ++c) {
         const float blended = (1.0f - alpha) * (1.0f - alpha + alpha * colours[c]);
