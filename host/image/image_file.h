@@ -25,6 +25,9 @@ LoadedImage readImage(const std::string& path);
 void writeWhole(const std::string& path, const void* context,
                 void (*write)(const std::string& temporary, const void* context));
 
+/// A PNG file of sRGB bytes [height, width, 3] in memory.
+std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int width, int height);
+
 void writeExrFile(const std::string& path, const Frame& frame);
 void writePngFile(const std::string& path, const Frame& frame);
 LoadedImage readExrFile(const std::string& path);
