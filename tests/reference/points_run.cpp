@@ -76,6 +76,30 @@ std::vector<DevicePoint> PointsRun::points() const {
     return points;
 }
 
+std::vector<std::vector<float>> PointsRun::warpedMaps(visibility::Parallelism form, int bits) {
+    const auto views = static_cast<std::size_t>(view.params.views);
+    const auto stride = static_cast<std::size_t>(view.params.mapStride);
+    runtime::Buffer<std::uint32_t> maps32(device(), "maps", views * stride);
+    runtime::Buffer<std::uint16_t> maps16(device(), "maps", views * stride);
+    runtime::Buffer<float> samples(device(), "samples", view.samples);
+    runtime::Buffer<shared::MultiViewCounters> count(
+        device(), "counters", std::vector<shared::MultiViewCounters>{counters});
+    view.params.depthBits = bits;
+    visibility::DepthWarp(program("multi_view"), form, 3)
+        .run(pass_.buffers(), view, samples,
+             {0, view.params.views, &maps32, bits == 16 ? &maps16 : nullptr}, count);
+    const auto words = maps32.download();
+    const auto shorts = maps16.download();
+    const auto texels = static_cast<std::size_t>(view.params.resolution) *
+                        static_cast<std::size_t>(view.params.resolution);
+    std::vector<std::vector<float>> result(views);
+    for (std::size_t v = 0; v < views; ++v)
+        for (std::size_t i = v * stride; i < v * stride + texels; ++i)
+            result[v].push_back(bits == 16 ? static_cast<float>(shorts[i]) / 65535.0F
+                                           : std::bit_cast<float>(words[i]));
+    return result;
+}
+
 std::vector<std::vector<float>> PointsRun::directMaps() {
     const auto views = static_cast<std::size_t>(view.params.views);
     const auto stride = static_cast<std::size_t>(view.params.mapStride);

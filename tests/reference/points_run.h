@@ -7,6 +7,7 @@
 #include "host/scene/animation.h"
 #include "host/scene/bounds.h"
 #include "host/scene/light.h"
+#include "host/visibility/depth_warp.h"
 #include "host/visibility/points.h"
 
 namespace penumbra::tests {
@@ -30,6 +31,8 @@ class PointsRun {
   public:
     PointsRun(const scene::Scene& original, const PointsSetup& setup);
     std::vector<DevicePoint> points() const;
+    /// Depth maps [view] of the stored points: resolution^2 depths each, of 16 or 32 bits a texel.
+    std::vector<std::vector<float>> warpedMaps(visibility::Parallelism form, int bits);
     /// Depth maps [view] straight from the rasteriser: resolution^2 float bits each.
     std::vector<std::vector<float>> directMaps();
 

