@@ -46,15 +46,22 @@ std::vector<std::string> ownStages(const Comparison& c) {
     return stages;
 }
 
+std::string cell(bool best, const std::string& value) {
+    return fmt::format("<td{}>{}</td>", best ? " class=\"best\"" : "", value);
+}
+
+std::string nameCell(std::size_t index, const ContenderResult& result) {
+    return fmt::format("<tr><td style=\"color:var(--c{})\"><b>{}</b></td>", index % 8,
+                       escaped(result.contender.label));
+}
+
 std::string summary(const Comparison& c) {
-    const auto stages = ownStages(c);
-    std::string html = "<h2>Cost and error</h2><div class=\"scroll\"><table><thead><tr><th>technique</th>";
-    for (const auto& stage : stages) html += fmt::format("<th>{}<br>ms</th>", escaped(stage));
-    html +=
-        "<th>total<br>ms</th><th>shadows<br>ms</th><th>faster<br>than mvr</th><th>RMSE</th><th>FLIP</th>"
-        "<th>max</th><th>beyond<br>4/255</th><th>frame RMSE<br>of 255</th><th>frame<br>FLIP</th>"
-        "<th>same<br>samples</th>";
     const bool several = c.options.frames.size() > 1;
+    std::string html =
+        "<h2>Cost and error</h2><div class=\"scroll\"><table><thead><tr><th>technique</th>"
+        "<th>shadows<br>ms</th><th>frame<br>ms</th><th>faster<br>than mvr</th><th>RMSE</th>"
+        "<th>FLIP</th><th>max</th><th>beyond<br>4/255</th><th>same<br>samples</th>"
+        "<th>picture RMSE<br>of 255</th><th>picture<br>FLIP</th>";
     html += several ? "<th>flicker</th></tr></thead><tbody>" : "</tr></thead><tbody>";
     std::vector<double> times, errors, flips;
     for (const auto& r : c.results) {
@@ -62,41 +69,49 @@ std::string summary(const Comparison& c) {
         errors.push_back(r.error.rmse);
         flips.push_back(r.error.flip);
     }
-    const auto cell = [](bool best, const std::string& value) {
-        return fmt::format("<td{}>{}</td>", best ? " class=\"best\"" : "", value);
-    };
     for (std::size_t i = 0; i < c.results.size(); ++i) {
         const auto& r = c.results[i];
-        html += fmt::format("<tr><td style=\"color:var(--c{})\"><b>{}</b></td>", i % 8,
-                            escaped(r.contender.label));
-        for (const auto& stage : stages) {
-            const auto found = r.stageMs.find(stage);
-            html += found == r.stageMs.end() ? "<td><small>-</small></td>"
-                                             : fmt::format("<td>{:.2f}</td>", found->second);
-        }
+        html += nameCell(i, r) + cell(i == bestOf(times), fmt::format("{:.2f}", r.ms));
         html += fmt::format("<td>{:.1f}</td>", r.totalMs);
-        html += cell(i == bestOf(times), fmt::format("{:.2f}", r.ms));
         html += r.fasterThanMvr ? fmt::format("<td>{:.2f} x</td>", *r.fasterThanMvr)
                                 : std::string("<td><small>-</small></td>");
         html += cell(i == bestOf(errors), fmt::format("{:.4f}", r.error.rmse));
         html += cell(i == bestOf(flips), fmt::format("{:.4f}", r.error.flip));
-        html += fmt::format("<td>{:.3f}</td><td>{:.2f} %</td><td>{:.2f}</td><td>{:.4f}</td><td>{:.4f}</td>",
-                            r.error.maximum, 100 * r.error.share4, r.error.frameRmse255,
-                            r.error.frameFlip, r.sameSamples);
+        html += fmt::format(
+            "<td>{:.3f}</td><td>{:.2f} %</td><td>{:.4f}</td><td>{:.2f}</td><td>{:.4f}</td>",
+            r.error.maximum, 100 * r.error.share4, r.sameSamples, r.error.frameRmse255,
+            r.error.frameFlip);
         html += several ? fmt::format("<td>{:.5f}</td></tr>", r.flicker) : std::string("</tr>");
     }
-    html += "</tbody></table></div>";
     html +=
-        "<p>RMSE, FLIP, max and the share beyond 4/255 are of visibility against the reference, over the pixels that a "
-        "light can reach; <i>frame</i> is the tone-mapped picture; <i>same samples</i> is the RMSE of visibility "
-        "against rays to the very samples that the technique uses, its error without that of the sampling. "
-        "<i>Shadows</i> are all stages but the camera's and shading.";
+        "</tbody></table></div><p>RMSE, FLIP, max and the share beyond 4/255 are of visibility against the reference, "
+        "over the pixels that a light can reach; <i>same samples</i> is the RMSE of visibility against rays to the very "
+        "samples that the technique uses: its error without that of the sampling; <i>picture</i> is the tone-mapped "
+        "frame. <i>Shadows</i> are all stages but the camera's and shading. The best of a column is marked.";
     if (several)
         html += fmt::format(
             " Flicker is the mean change of visibility from frame to frame on receivers that rest; the reference has "
             "{:.5f}.",
             c.reference.flicker);
     return html + "</p>";
+}
+
+std::string stageTable(const Comparison& c) {
+    const auto stages = ownStages(c);
+    std::string html =
+        "<h3>Milliseconds of each stage</h3><div class=\"scroll\"><table><thead><tr><th>technique</th>";
+    for (const auto& stage : stages) html += fmt::format("<th>{}</th>", escaped(stage));
+    html += "</tr></thead><tbody>";
+    for (std::size_t i = 0; i < c.results.size(); ++i) {
+        html += nameCell(i, c.results[i]);
+        for (const auto& stage : stages) {
+            const auto found = c.results[i].stageMs.find(stage);
+            html += found == c.results[i].stageMs.end() ? "<td><small>-</small></td>"
+                                                        : fmt::format("<td>{:.2f}</td>", found->second);
+        }
+        html += "</tr>";
+    }
+    return html + "</tbody></table></div>";
 }
 
 std::string slider(const std::string& left, const std::string& leftName, const std::string& right,
@@ -262,7 +277,7 @@ std::string reportPage(const Comparison& c) {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>penumbra: soft shadows compared</title>"
         "<link rel=\"icon\" href=\"data:,\"><style>{}</style></head><body>\n{}{}{}{}{}{}{}\n<script>{}</script></body></html>\n",
-        kPageStyle, heading(c), summary(c), charts(c), sweep(c), pictures(c), insets(c), details(c),
+        kPageStyle, heading(c), summary(c) + stageTable(c), charts(c), sweep(c), pictures(c), insets(c), details(c),
         kPageScript);
 }
 

@@ -39,19 +39,37 @@ int stepBack(const TemporalFrame& now, const TemporalFrame& before, std::size_t 
     return off < 0.01 ? static_cast<int>(last) : -1;
 }
 
+/// Visibility of the frame around a pixel, 3 x 3, where it was tested.
+void neighbourhood(const TemporalFrame& frame, std::size_t pixel, glm::dvec3& low,
+                   glm::dvec3& high) {
+    const int x = static_cast<int>(pixel) % frame.width, y = static_cast<int>(pixel) / frame.width;
+    low = high = frame.visibility[pixel];
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+            if (x + dx < 0 || y + dy < 0 || x + dx >= frame.width || y + dy >= frame.height)
+                continue;
+            const auto at = static_cast<std::size_t>((y + dy) * frame.width + x + dx);
+            if (!frame.tested[at]) continue;
+            low = glm::min(low, frame.visibility[at]);
+            high = glm::max(high, frame.visibility[at]);
+        }
+}
+
 }  // namespace
 
 TemporalMean temporalMean(const std::vector<TemporalFrame>& frames, int window, std::size_t pixel) {
     TemporalMean mean;
     std::size_t frame = frames.size() - 1;
     mean.visibility = frames[frame].visibility[pixel];
+    glm::dvec3 low, high;
+    neighbourhood(frames[frame], pixel, low, high);
     while (mean.frames < window && frame > 0 && frames[frame].tested[pixel]) {
         const int last = stepBack(frames[frame], frames[frame - 1], pixel, mean.doubtful);
         if (last < 0) break;
         --frame;
         pixel = static_cast<std::size_t>(last);
         if (!frames[frame].tested[pixel]) break;
-        mean.visibility += frames[frame].visibility[pixel];
+        mean.visibility += glm::clamp(frames[frame].visibility[pixel], low, high);
         ++mean.frames;
     }
     mean.visibility /= static_cast<double>(mean.frames);

@@ -27,7 +27,8 @@ struct TemporalMean {
     bool doubtful = false;  ///< a step lies so near to a limit that float may decide otherwise
 };
 
-/// Mean of a pixel of the last frame over at most `window` frames.
+/// Mean of a pixel of the last frame over at most `window` frames, earlier ones clamped to what the
+/// last frame holds among the pixel's 3 x 3 neighbours.
 TemporalMean temporalMean(const std::vector<TemporalFrame>& frames, int window, std::size_t pixel);
 
 }  // namespace penumbra::tests
