@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "make_scene_armour.h"
+#include "make_scene_field.h"
+#include "make_scene_simplify.h"
 #include "make_scene_surface.h"
 
 namespace tools {
@@ -20,39 +23,6 @@ constexpr float kBootHeight = 0.315F;
 
 vec3 mirror(const vec3& p) {
     return vec3(-p.x, p.y, p.z);
-}
-
-// Polynomial smooth minimum (Quilez); k is the width of the blend in metres.
-float smoothMin(float a, float b, float k) {
-    const float h = std::max(k - std::abs(a - b), 0.0F) / k;
-    return std::min(a, b) - h * h * k * 0.25F;
-}
-
-float smoothMax(float a, float b, float k) {
-    return -smoothMin(-a, -b, k);
-}
-
-float smoothStep(float low, float high, float x) {
-    const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
-    return t * t * (3 - 2 * t);
-}
-
-// A bump of height 1 around `middle`, zero beyond `reach`.
-float bump(float x, float middle, float reach) {
-    return 1 - smoothStep(0.35F * reach, reach, std::abs(x - middle));
-}
-
-float ellipsoid(const vec3& p, const vec3& centre, const vec3& radii) {
-    const vec3 scaled = (p - centre) / radii;
-    const float k0 = glm::length(scaled);
-    const float k1 = glm::length(scaled / radii);
-    return k1 > 0 ? k0 * (k0 - 1) / k1 : -std::min({radii.x, radii.y, radii.z});
-}
-
-float capsule(const vec3& p, const vec3& a, const vec3& b, float radiusA, float radiusB) {
-    const vec3 axis = b - a;
-    const float share = std::clamp(glm::dot(p - a, axis) / glm::dot(axis, axis), 0.0F, 1.0F);
-    return glm::length(p - a - axis * share) - glm::mix(radiusA, radiusB, share);
 }
 
 float torsoDistance(const vec3& p) {
@@ -157,23 +127,31 @@ float scarfRing(const vec3& p) {
     return glm::length(glm::vec2(glm::length(glm::vec2(q.x, q.z)) - 0.066F, q.y * 0.8F));
 }
 
-float bodyDistance(const vec3& p) {
-    const vec3 q(std::abs(p.x), p.y, p.z);
-    float trunk = torsoDistance(p);
-    // The coat: a layer on the trunk, and below the belt a flared cone that ends at the hem.
+// The coat: a layer on the trunk, and below the belt a flared cone that ends at the hem.
+float coatDistance(const vec3& p, float trunk) {
     trunk -= 0.007F * (1 - smoothStep(1.42F, 1.5F, p.y)) * smoothStep(0.85F, 0.95F, p.y);
-    trunk -= 0.007F * bump(p.y, kBeltHeight, 0.032F);
+    return trunk - 0.007F * bump(p.y, kBeltHeight, 0.032F);
+}
+
+float skirtDistance(const vec3& p) {
     const float flare = std::clamp((1.03F - p.y) / (1.03F - kHemHeight), 0.0F, 1.2F);
     const glm::vec2 radii =
         glm::mix(glm::vec2(0.128F, 0.095F), glm::vec2(0.222F, 0.168F), std::sqrt(flare));
     const float folds = 0.006F * flare * std::cos(12 * std::atan2(p.z / radii.y, p.x / radii.x));
     float skirt =
         (glm::length(glm::vec2(p.x, p.z) / radii) - 1) * 0.5F * (radii.x + radii.y) + folds;
-    skirt = smoothMax(skirt, std::max(kHemHeight - p.y, p.y - 1.03F), 0.01F);
+    return smoothMax(skirt, std::max(kHemHeight - p.y, p.y - 1.03F), 0.01F);
+}
+
+float bodyDistance(const vec3& p, const FigureStyle& style) {
+    const vec3 q(std::abs(p.x), p.y, p.z);
+    const float torso = torsoDistance(p);
+    const float trunk = style.isArmoured ? torso : coatDistance(p, torso);
     float d = smoothMin(legDistance(p), legDistance(mirror(p)), 0.015F);
     d = smoothMin(trunk, d, 0.045F);
-    d = smoothMin(d, skirt, 0.008F);
-    d = smoothMin(d, armDistance(q, p.x < 0), 0.028F);
+    if (!style.isArmoured) d = smoothMin(d, skirtDistance(p), 0.008F);
+    d = smoothMin(d, armDistance(q, p.x < 0 || style.hasLeftFist), 0.028F);
+    if (style.isArmoured) d = smoothMin(d, armourDistance(p, torso), 0.003F);
     d = smoothMin(d, scarfRing(p) - 0.027F, 0.012F);
     return smoothMin(d, headDistance(p), 0.018F);
 }
@@ -212,7 +190,7 @@ struct Region {
     Field border;
 };
 
-std::vector<Region> makeRegions() {
+std::vector<Region> makeCoatRegions() {
     const auto coat = [](const vec3& p) { return kHemHeight - p.y; };
     const auto belt = [](const vec3& p) {
         return std::max(std::abs(p.y - kBeltHeight) - 0.022F, std::abs(p.x) - 0.3F);
@@ -231,40 +209,82 @@ std::vector<Region> makeRegions() {
     };
 }
 
-void assignMaterials(Figure& figure, const std::vector<Region>& regions) {
-    for (const Region& region : regions) figure.materials.push_back(region.material);
-    figure.indicesOf.resize(regions.size());
-    const Mesh& skin = figure.skin;
+std::vector<Region> makeArmourRegions() {
+    const auto steel = [](const vec3& p) { return armourDistance(p, torsoDistance(p)) - 0.003F; };
+    const auto face = [](const vec3& p) { return neckBorder(p); };
+    return {
+        {{"collar", {0.2F, 0.2F, 0.22F}, 0.5F}, scarfBorder},
+        {{"hair", {0.09F, 0.055F, 0.035F}, 0.75F},
+         [](const vec3& p) { return std::max(hairBorder(p), neckBorder(p)); }},
+        {{"skin", {0.71F, 0.49F, 0.37F}, 0.6F}, face},
+        {{"steel", {0.46F, 0.47F, 0.5F}, 0.4F}, steel},
+        {{"gloves", {0.2F, 0.12F, 0.07F}, 0.7F}, handBorder},
+        {{"boots", {0.17F, 0.095F, 0.055F}, 0.65F},
+         [](const vec3& p) { return p.y - kBootHeight; }},
+        {{"gambeson", {0.35F, 0.09F, 0.07F}, 0.9F}, [](const vec3& p) { return kHemHeight - p.y; }},
+        {{"trousers", {0.3F, 0.27F, 0.22F}, 0.92F}, [](const vec3&) { return -1.0F; }},
+    };
+}
+
+// The first region that holds each triangle's middle.
+std::vector<uint8_t> findRegions(const Mesh& skin, const std::vector<Region>& regions) {
+    std::vector<uint8_t> labels;
     for (size_t t = 0; t < skin.indices.size(); t += 3) {
         const uint32_t* corner = &skin.indices[t];
         const vec3 centre =
             (skin.positions[corner[0]] + skin.positions[corner[1]] + skin.positions[corner[2]]) /
             3.0F;
-        size_t match = 0;
+        uint8_t match = 0;
         while (regions[match].border(centre) >= 0) ++match;
-        figure.indicesOf[match].insert(figure.indicesOf[match].end(), corner, corner + 3);
+        labels.push_back(match);
     }
+    return labels;
+}
+
+void assignMaterials(Figure& figure, const std::vector<Region>& regions,
+                     const std::vector<uint8_t>& labels) {
+    for (const Region& region : regions) figure.materials.push_back(region.material);
+    figure.indicesOf.resize(regions.size());
+    for (size_t t = 0; t < labels.size(); ++t) {
+        const uint32_t* corner = &figure.skin.indices[3 * t];
+        auto& indices = figure.indicesOf[labels[t]];
+        indices.insert(indices.end(), corner, corner + 3);
+    }
+}
+
+SampleGrid makeGrid(float detail) {
+    SampleGrid grid;
+    grid.x = makePlanes(-0.72F, 0.72F, [=](float x) {
+        const float distance = std::abs(x + 0.0001F);
+        return (distance < 0.1F ? 0.0085F : distance < 0.45F ? 0.0128F : 0.0089F) / detail;
+    });
+    grid.y = makePlanes(-0.0301F, 1.82F, [=](float y) {
+        return (y > 1.5F                               ? 0.0081F
+                : (y > 0.8F && y < 1.01F) || y < 0.12F ? 0.0104F
+                                                       : 0.0145F) /
+               detail;
+    });
+    grid.z = makePlanes(-0.2501F, 0.26F,
+                        [=](float z) { return (z > 0.05F ? 0.0094F : 0.012F) / detail; });
+    return grid;
 }
 
 }  // namespace
 
-Figure makeFigure() {
-    SampleGrid grid;
-    grid.x = makePlanes(-0.72F, 0.72F, [](float x) {
-        const float distance = std::abs(x + 0.0001F);
-        return distance < 0.1F ? 0.0085F : distance < 0.45F ? 0.0128F : 0.0089F;
-    });
-    grid.y = makePlanes(-0.0301F, 1.82F, [](float y) {
-        return y > 1.5F ? 0.0081F : (y > 0.8F && y < 1.01F) || y < 0.12F ? 0.0104F : 0.0145F;
-    });
-    grid.z = makePlanes(-0.2501F, 0.26F, [](float z) { return z > 0.05F ? 0.0094F : 0.012F; });
-    const std::vector<Region> regions = makeRegions();
+Figure makeFigure(const FigureStyle& style) {
+    const Field body = [&](const vec3& p) { return bodyDistance(p, style); };
+    const std::vector<Region> regions = style.isArmoured ? makeArmourRegions() : makeCoatRegions();
     Figure figure;
-    figure.skin = polygonise(bodyDistance, grid);
+    figure.skin = polygonise(body, makeGrid(style.detail));
     for (size_t i = 0; i + 1 < regions.size(); ++i) {
-        cutAlong(figure.skin, regions[i].border, bodyDistance, 0.003F);
+        cutAlong(figure.skin, regions[i].border, body, 0.003F / style.detail);
     }
-    assignMaterials(figure, regions);
+    std::vector<uint8_t> labels = findRegions(figure.skin, regions);
+    if (style.triangleCount > 0) {
+        simplify(figure.skin, labels, style.triangleCount);
+        figure.skin.normals = normalsOf(body, figure.skin.positions);
+    }
+    assignMaterials(figure, regions, labels);
     assignWeights(figure);
     return figure;
 }

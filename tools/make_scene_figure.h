@@ -65,7 +65,14 @@ struct Figure {
     std::vector<std::vector<uint32_t>> indicesOf;  // [materials]
 };
 
-Figure makeFigure();
+struct FigureStyle {
+    bool isArmoured = false;   // plates on the body instead of a coat
+    bool hasLeftFist = false;  // the left hand grips; else it hangs open
+    float detail = 1;          // samples per length, relative to the built-in figure
+    size_t triangleCount = 0;  // even, met exactly by leaving out detail; 0: as sampled
+};
+
+Figure makeFigure(const FigureStyle& style = {});
 
 // Smooth weights from the distances to the bones' surfaces, at most four per vertex.
 void assignWeights(Figure& figure);

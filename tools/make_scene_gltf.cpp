@@ -102,21 +102,69 @@ int GltfWriter::addMesh(std::string_view name, const Mesh& mesh, int material) {
     return lastOf(document_["meshes"]);
 }
 
+json GltfWriter::addSkinnedAttributes(const Mesh& mesh,
+                                      const std::vector<std::array<uint8_t, 4>>& joints,
+                                      const std::vector<std::array<uint16_t, 4>>& weights) {
+    json attributes = addAttributes(mesh);
+    attributes["JOINTS_0"] = addAccessor(joints, kUnsignedByte, "VEC4", kArrayBuffer);
+    const int shares = addAccessor(weights, kUnsignedShort, "VEC4", kArrayBuffer);
+    document_["accessors"][shares]["normalized"] = true;
+    attributes["WEIGHTS_0"] = shares;
+    return attributes;
+}
+
+FigureBuffers GltfWriter::addFigureBuffers(const Figure& figure) {
+    FigureBuffers buffers;
+    for (const auto& indices : figure.indicesOf) {
+        Figure part;
+        std::vector<uint32_t> numberOf(figure.skin.positions.size(), UINT32_MAX);
+        for (const uint32_t vertex : indices) {
+            uint32_t& number = numberOf[vertex];
+            if (number == UINT32_MAX) {
+                number = static_cast<uint32_t>(part.skin.positions.size());
+                part.skin.positions.push_back(figure.skin.positions[vertex]);
+                part.skin.normals.push_back(figure.skin.normals[vertex]);
+                part.joints.push_back(figure.joints[vertex]);
+                part.weights.push_back(figure.weights[vertex]);
+            }
+            part.skin.indices.push_back(number);
+        }
+        buffers.attributes.push_back(addSkinnedAttributes(part.skin, part.joints, part.weights));
+        buffers.indices.push_back(addIndices(part.skin.indices, part.skin.positions.size()));
+    }
+    return buffers;
+}
+
 int GltfWriter::addFigureMesh(std::string_view name, const Figure& figure) {
-    json attributes = addAttributes(figure.skin);
-    attributes["JOINTS_0"] = addAccessor(figure.joints, kUnsignedByte, "VEC4", kArrayBuffer);
-    const int weights = addAccessor(figure.weights, kUnsignedShort, "VEC4", kArrayBuffer);
-    document_["accessors"][weights]["normalized"] = true;
-    attributes["WEIGHTS_0"] = weights;
+    const json attributes = addSkinnedAttributes(figure.skin, figure.joints, figure.weights);
+    FigureBuffers buffers;
+    for (const auto& indices : figure.indicesOf) {
+        buffers.attributes.push_back(attributes);
+        buffers.indices.push_back(addIndices(indices, figure.skin.positions.size()));
+    }
+    return addFigureMesh(name, buffers, figure.materials);
+}
+
+int GltfWriter::addFigureMesh(std::string_view name, const FigureBuffers& buffers,
+                              const std::vector<FigureMaterial>& materials) {
     json primitives = json::array();
-    for (size_t i = 0; i < figure.materials.size(); ++i) {
-        const FigureMaterial& look = figure.materials[i];
-        const int indices = addIndices(figure.indicesOf[i], figure.skin.positions.size());
+    for (size_t i = 0; i < materials.size(); ++i) {
+        const FigureMaterial& look = materials[i];
         const int material = addMaterial(look.name, look.baseColor, look.roughness);
-        primitives.push_back(
-            {{"attributes", attributes}, {"indices", indices}, {"material", material}});
+        primitives.push_back({{"attributes", buffers.attributes[i]},
+                              {"indices", buffers.indices[i]},
+                              {"material", material}});
     }
     document_["meshes"].push_back({{"name", name}, {"primitives", primitives}});
+    return lastOf(document_["meshes"]);
+}
+
+int GltfWriter::addClothMesh(std::string_view name, const Cloth& cloth, int material) {
+    const json attributes = addSkinnedAttributes(cloth.mesh, cloth.joints, cloth.weights);
+    const int indices = addIndices(cloth.mesh.indices, cloth.mesh.positions.size());
+    const json primitive = {
+        {"attributes", attributes}, {"indices", indices}, {"material", material}};
+    document_["meshes"].push_back({{"name", name}, {"primitives", json::array({primitive})}});
     return lastOf(document_["meshes"]);
 }
 
@@ -130,13 +178,20 @@ void GltfWriter::addChild(int parent, int child) {
 }
 
 int GltfWriter::addSkin(std::string_view name, int firstJointNode) {
+    std::vector<glm::vec3> places;
+    for (const JointInfo& joint : skeleton()) places.push_back(joint.restPosition);
+    return addSkin(name, firstJointNode, places);
+}
+
+int GltfWriter::addSkin(std::string_view name, int firstJointNode,
+                        const std::vector<glm::vec3>& places) {
     std::vector<glm::mat4> jointFromMesh;
     json joints = json::array();
-    for (int joint = 0; joint < kJointCount; ++joint) {
+    for (const glm::vec3& place : places) {
         glm::mat4 inverse(1);
-        inverse[3] = glm::vec4(-skeleton()[joint].restPosition, 1);
+        inverse[3] = glm::vec4(-place, 1);
         jointFromMesh.push_back(inverse);
-        joints.push_back(firstJointNode + joint);
+        joints.push_back(firstJointNode + static_cast<int>(joints.size()));
     }
     const int matrices = addAccessor(jointFromMesh, kFloat, "MAT4", kNoTarget);
     document_["skins"].push_back({{"name", name},
@@ -146,27 +201,48 @@ int GltfWriter::addSkin(std::string_view name, int firstJointNode) {
     return lastOf(document_["skins"]);
 }
 
-void GltfWriter::addWalk(std::string_view name, const WalkClip& clip, int firstJointNode) {
-    const int times = addAccessor(clip.timesSeconds, kFloat, "SCALAR", kNoTarget);
-    document_["accessors"][times]["min"] = {clip.timesSeconds.front()};
-    document_["accessors"][times]["max"] = {clip.timesSeconds.back()};
-    json samplers = json::array();
-    json channels = json::array();
-    const auto addChannel = [&](int output, int node, std::string_view path) {
-        samplers.push_back({{"input", times}, {"interpolation", "LINEAR"}, {"output", output}});
-        channels.push_back(
-            {{"sampler", lastOf(samplers)}, {"target", {{"node", node}, {"path", path}}}});
-    };
-    addChannel(addAccessor(clip.hipsTranslations, kFloat, "VEC3", kNoTarget), firstJointNode,
-               "translation");
-    for (int joint = 0; joint < kJointCount; ++joint) {
-        std::vector<glm::vec4> keys;  // x, y, z, w whatever glm's own order
-        for (const glm::quat& q : clip.rotations[joint]) keys.emplace_back(q.x, q.y, q.z, q.w);
-        addChannel(addAccessor(keys, kFloat, "VEC4", kNoTarget), firstJointNode + joint,
-                   "rotation");
-    }
+int GltfWriter::addAnimation(std::string_view name) {
     document_["animations"].push_back(
-        {{"name", name}, {"samplers", samplers}, {"channels", channels}});
+        {{"name", name}, {"samplers", json::array()}, {"channels", json::array()}});
+    return lastOf(document_["animations"]);
+}
+
+int GltfWriter::addTimes(const std::vector<float>& timesSeconds) {
+    const int times = addAccessor(timesSeconds, kFloat, "SCALAR", kNoTarget);
+    document_["accessors"][times]["min"] = {timesSeconds.front()};
+    document_["accessors"][times]["max"] = {timesSeconds.back()};
+    return times;
+}
+
+void GltfWriter::addChannel(int animation, int times, int output, int node, std::string_view path) {
+    json& target = document_["animations"][animation];
+    target["samplers"].push_back(
+        {{"input", times}, {"interpolation", "LINEAR"}, {"output", output}});
+    target["channels"].push_back(
+        {{"sampler", lastOf(target["samplers"])}, {"target", {{"node", node}, {"path", path}}}});
+}
+
+int GltfWriter::addRotations(const std::vector<glm::quat>& rotations) {
+    std::vector<glm::vec4> keys;  // x, y, z, w whatever glm's own order
+    for (const glm::quat& q : rotations) keys.emplace_back(q.x, q.y, q.z, q.w);
+    return addAccessor(keys, kFloat, "VEC4", kNoTarget);
+}
+
+void GltfWriter::animateFigure(int animation, const Clip& clip, int firstJointNode) {
+    const int times = addTimes(clip.timesSeconds);
+    addChannel(animation, times, addAccessor(clip.hipsTranslations, kFloat, "VEC3", kNoTarget),
+               firstJointNode, "translation");
+    for (int joint = 0; joint < kJointCount; ++joint)
+        addChannel(animation, times, addRotations(clip.rotations[joint]), firstJointNode + joint,
+                   "rotation");
+}
+
+void GltfWriter::animateNodes(int animation, const std::vector<float>& timesSeconds,
+                              const std::vector<std::vector<glm::quat>>& rotations, int firstNode) {
+    const int times = addTimes(timesSeconds);
+    for (size_t i = 0; i < rotations.size(); ++i)
+        addChannel(animation, times, addRotations(rotations[i]), firstNode + static_cast<int>(i),
+                   "rotation");
 }
 
 size_t GltfWriter::write(const std::string& path) {

@@ -7,10 +7,16 @@
 #include <string>
 #include <string_view>
 
-#include "make_scene_figure.h"
-#include "make_scene_walk.h"
+#include "make_scene_cloth.h"
+#include "make_scene_pose.h"
 
 namespace tools {
+
+// What the meshes of one figure share: per material, accessors of vertices and indices.
+struct FigureBuffers {
+    std::vector<nlohmann::json> attributes;
+    std::vector<int> indices;
+};
 
 class GltfWriter {
   public:
@@ -19,12 +25,24 @@ class GltfWriter {
     // Each returns the index of what it added.
     int addMaterial(std::string_view name, const glm::vec3& baseColor, float roughness);
     int addMesh(std::string_view name, const Mesh& mesh, int material);
+    // All materials index the same vertices, as many exporters have it.
     int addFigureMesh(std::string_view name, const Figure& figure);
+    // Each material has its own vertices, so that none is posed in vain.
+    FigureBuffers addFigureBuffers(const Figure& figure);
+    int addFigureMesh(std::string_view name, const FigureBuffers& buffers,
+                      const std::vector<FigureMaterial>& materials);
+    int addClothMesh(std::string_view name, const Cloth& cloth, int material);
     int addNode(nlohmann::json node);
+    // The figure's skin, or one of joints at rest at the given places; joint nodes are consecutive.
     int addSkin(std::string_view name, int firstJointNode);
+    int addSkin(std::string_view name, int firstJointNode, const std::vector<glm::vec3>& places);
 
+    int addAnimation(std::string_view name);
     // Translation of the hips and rotation of every joint; joint nodes are consecutive.
-    void addWalk(std::string_view name, const WalkClip& clip, int firstJointNode);
+    void animateFigure(int animation, const Clip& clip, int firstJointNode);
+    // Rotations of consecutive nodes.
+    void animateNodes(int animation, const std::vector<float>& timesSeconds,
+                      const std::vector<std::vector<glm::quat>>& rotations, int firstNode);
 
     void addChild(int parent, int child);
 
@@ -40,6 +58,12 @@ class GltfWriter {
                     int target);
     int addIndices(const std::vector<uint32_t>& indices, size_t vertexCount);
     nlohmann::json addAttributes(const Mesh& mesh);
+    nlohmann::json addSkinnedAttributes(const Mesh& mesh,
+                                        const std::vector<std::array<uint8_t, 4>>& joints,
+                                        const std::vector<std::array<uint16_t, 4>>& weights);
+    int addTimes(const std::vector<float>& timesSeconds);
+    void addChannel(int animation, int times, int output, int node, std::string_view path);
+    int addRotations(const std::vector<glm::quat>& rotations);
 
     nlohmann::json document_;
     std::vector<uint8_t> binary_;

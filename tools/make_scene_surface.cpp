@@ -39,6 +39,33 @@ glm::vec3 projectOnto(const Field& surface, glm::vec3 position, float largestSte
     return position;
 }
 
+// Samples the field. Blocks that the surface cannot reach get the sign of their middle: fields here
+// grow by less than kSteepest per metre.
+void sampleField(Net& net, const Field& surface) {
+    constexpr size_t kBlock = 6;
+    constexpr float kSteepest = 2;
+    net.values.resize(net.size[0] * net.size[1] * net.size[2]);
+    const auto end = [&](size_t from, size_t axis) {
+        return std::min(from + kBlock, net.size[axis]);
+    };
+    for (size_t i = 0; i < net.size[0]; i += kBlock) {
+        for (size_t j = 0; j < net.size[1]; j += kBlock) {
+            for (size_t k = 0; k < net.size[2]; k += kBlock) {
+                const size_t endI = end(i, 0), endJ = end(j, 1), endK = end(k, 2);
+                const glm::vec3 low = net.positionOf(i, j, k);
+                const glm::vec3 high = net.positionOf(endI - 1, endJ - 1, endK - 1);
+                const float middle = surface(0.5F * (low + high));
+                const bool isFar = std::abs(middle) > 0.5F * kSteepest * glm::distance(low, high);
+                for (size_t a = i; a < endI; ++a)
+                    for (size_t b = j; b < endJ; ++b)
+                        for (size_t c = k; c < endK; ++c)
+                            net.values[net.indexOf(a, b, c)] =
+                                isFar ? middle : surface(net.positionOf(a, b, c));
+            }
+        }
+    }
+}
+
 // A grid face whose corners alternate in sign would give an edge shared by four quads: the value
 // nearest to zero changes sides. Returns whether it found any.
 bool removeSaddles(Net& net) {
@@ -153,22 +180,22 @@ glm::vec3 computeGradient(const Field& field, const glm::vec3& position, float s
     return gradient;
 }
 
+std::vector<glm::vec3> normalsOf(const Field& surface, const std::vector<glm::vec3>& positions) {
+    std::vector<glm::vec3> normals;
+    for (const glm::vec3& position : positions)
+        normals.push_back(glm::normalize(computeGradient(surface, position, kGradientStep)));
+    return normals;
+}
+
 Mesh polygonise(const Field& surface, const SampleGrid& grid) {
     Net net{grid, {grid.x.size(), grid.y.size(), grid.z.size()}, {}, {}};
-    net.values.reserve(net.size[0] * net.size[1] * net.size[2]);
-    for (const float x : grid.x) {
-        for (const float y : grid.y) {
-            for (const float z : grid.z) net.values.push_back(surface(glm::vec3(x, y, z)));
-        }
-    }
+    sampleField(net, surface);
     for (int pass = 0; pass < 20 && removeSaddles(net); ++pass) {
     }
     Mesh mesh;
     addVertices(net, surface, mesh);
     for (size_t axis = 0; axis < 3; ++axis) addQuads(net, axis, mesh);
-    for (const glm::vec3& position : mesh.positions) {
-        mesh.normals.push_back(glm::normalize(computeGradient(surface, position, kGradientStep)));
-    }
+    mesh.normals = normalsOf(surface, mesh.positions);
     return mesh;
 }
 

@@ -19,6 +19,8 @@ struct SampleGrid {
 // Central differences; not normalised.
 glm::vec3 computeGradient(const Field& field, const glm::vec3& position, float step);
 
+std::vector<glm::vec3> normalsOf(const Field& surface, const std::vector<glm::vec3>& positions);
+
 // Surface nets (Gibson 1998): one vertex per cell the surface crosses, one quad per crossed grid
 // edge. Vertices are then moved onto the surface by Newton steps, which keeps thin features the
 // averaging would round off.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walk cycle: pelvis path and foot paths as functions of the stride's phase, two-bone inverse
-// kinematics for legs and the staff arm, forward kinematics for the rest. Space: the figure's,
-// facing +Z, left at +X, floor at y = 0.
+// Walk cycle: pelvis path and foot paths as functions of the stride's phase, inverse kinematics for
+// legs and the staff arm, forward kinematics for the rest.
 #include "make_scene_walk.h"
 
 #include <algorithm>
@@ -10,14 +9,11 @@
 
 namespace tools {
 
-using glm::mat3;
 using glm::quat;
 using glm::vec3;
 
 namespace {
 
-constexpr int kKeysPerSecond = 24;
-constexpr float kClipSeconds = 2.0F;
 constexpr float kStrideSeconds = 1.0F;
 constexpr float kFloorSpeed = 1.1F;    // metres per second, backwards under the figure
 constexpr float kStanceShare = 0.62F;  // of the stride
@@ -31,17 +27,6 @@ constexpr float kFootSpacing = 0.085F;  // metres from the middle
 
 float cosineOf(float phase) {
     return std::cos(glm::two_pi<float>() * phase);
-}
-
-quat turn(float degrees, const vec3& axis) {
-    return glm::angleAxis(glm::radians(degrees), axis);
-}
-quat pitchUp(float degrees) {
-    return turn(-degrees, vec3(1, 0, 0));
-}
-
-vec3 restOf(Joint joint) {
-    return skeleton()[joint].restPosition;
 }
 
 struct FootState {
@@ -100,70 +85,6 @@ FootState footAt(float phase) {
     return state;
 }
 
-// A frame whose first axis runs along a bone and whose second is its hinge, made exactly
-// perpendicular.
-mat3 boneFrame(const vec3& along, const vec3& hinge) {
-    const vec3 straight = glm::normalize(hinge - along * glm::dot(hinge, along));
-    return mat3(along, straight, glm::cross(along, straight));
-}
-
-struct LimbPose {
-    quat upper, lower;  // in the figure's space
-    vec3 lowerDirection;
-};
-
-struct LimbPlane {
-    vec3 middle;  // the elbow or knee
-    vec3 hinge;
-};
-
-// Places the middle joint; it bends towards the pole. A target out of reach is approached.
-LimbPlane bendLimb(const vec3& root, const vec3& target, float upperLength, float lowerLength,
-                   const vec3& pole) {
-    const vec3 along = glm::normalize(target - root);
-    const float reach =
-        std::min(glm::distance(root, target), 0.9995F * (upperLength + lowerLength));
-    const vec3 side = glm::normalize(pole - along * glm::dot(pole, along));
-    const float forward =
-        (reach * reach + upperLength * upperLength - lowerLength * lowerLength) / (2 * reach);
-    const float aside = std::sqrt(std::max(upperLength * upperLength - forward * forward, 0.0F));
-    return {root + along * forward + side * aside, glm::cross(along, side)};
-}
-
-LimbPose poseLimb(Joint upper, Joint lower, Joint end, const vec3& root, const vec3& target,
-                  const vec3& pole, const vec3& restPole) {
-    const float upperLength = glm::distance(restOf(upper), restOf(lower));
-    const float lowerLength = glm::distance(restOf(lower), restOf(end));
-    const auto rotate = [](const vec3& restAlong, const vec3& restHinge, const vec3& along,
-                           const vec3& hinge) {
-        return glm::normalize(glm::quat_cast(boneFrame(along, hinge) *
-                                             glm::transpose(boneFrame(restAlong, restHinge))));
-    };
-    const LimbPlane posed = bendLimb(root, target, upperLength, lowerLength, pole);
-    const vec3 restUpper = glm::normalize(restOf(lower) - restOf(upper));
-    const vec3 restLower = glm::normalize(restOf(end) - restOf(lower));
-    const vec3 restAlong = glm::normalize(restOf(end) - restOf(upper));
-    const vec3 restSide = glm::normalize(restPole - restAlong * glm::dot(restPole, restAlong));
-    const vec3 restHinge = glm::cross(restAlong, restSide);
-    const vec3 upperAlong = glm::normalize(posed.middle - root);
-    const vec3 lowerAlong = glm::normalize(target - posed.middle);
-    return {rotate(restUpper, restHinge, upperAlong, posed.hinge),
-            rotate(restLower, restHinge, lowerAlong, posed.hinge), lowerAlong};
-}
-
-struct Pose {
-    vec3 hips;
-    std::array<quat, kJointCount> rotations;  // in the figure's space
-
-    // Where a joint stands, from its ancestors' rotations.
-    vec3 positionOf(Joint joint) const {
-        const int parent = skeleton()[joint].parent;
-        if (parent < 0) return hips;
-        const auto above = static_cast<Joint>(parent);
-        return positionOf(above) + rotations[above] * (restOf(joint) - restOf(above));
-    }
-};
-
 void poseTrunk(Pose& pose, float phase, float clipPhase) {
     const vec3 x(1, 0, 0);
     const vec3 y(0, 1, 0);
@@ -185,10 +106,7 @@ void poseTrunk(Pose& pose, float phase, float clipPhase) {
 }
 
 void poseLeg(Pose& pose, float phase, float side) {
-    const bool isLeft = side > 0;
-    const auto on = [&](Joint left) {
-        return static_cast<Joint>(isLeft ? left : left + kThighR - kThighL);
-    };
+    const auto on = [&](Joint left) { return onSide(left, side > 0 ? Side::left : Side::right); };
     const FootState foot = footAt(phase);
     const quat outward = turn(side * 6, vec3(0, 1, 0));
     pose.rotations[on(kFootL)] = outward * pitchUp(foot.pitchDeg);
@@ -200,16 +118,18 @@ void poseLeg(Pose& pose, float phase, float side) {
     pose.rotations[on(kShinL)] = leg.lower;
 }
 
-void poseFreeArm(Pose& pose, float phase) {
+void poseFreeArm(Pose& pose, Side side, float phase) {
+    const float out = side == Side::left ? 1.0F : -1.0F;
+    const Joint upper = onSide(kUpperArmL, side), lower = onSide(kLowerArmL, side);
     const vec3 x(1, 0, 0);
-    const vec3 hinge(std::cos(glm::radians(40.0F)), std::sin(glm::radians(40.0F)), 0);
+    const vec3 hinge(std::cos(glm::radians(40.0F)), out * std::sin(glm::radians(40.0F)), 0);
     const float swing = cosineOf(phase - 0.03F);
-    const quat lowered = turn(-29, vec3(0, 0, 1));
-    pose.rotations[kUpperArmL] = pose.rotations[kChest] * turn(-6 + 25 * swing, x) * lowered;
+    const quat lowered = turn(out * -29, vec3(0, 0, 1));
+    pose.rotations[upper] = pose.rotations[kChest] * turn(-6 + 25 * swing, x) * lowered;
     const float flex = 23 - 11 * cosineOf(phase - 0.08F);
-    pose.rotations[kLowerArmL] = pose.rotations[kUpperArmL] * turn(-flex, hinge);
-    pose.rotations[kHandL] =
-        pose.rotations[kLowerArmL] * turn(-6 + 6 * cosineOf(phase - 0.15F), hinge);
+    pose.rotations[lower] = pose.rotations[upper] * turn(-flex, hinge);
+    pose.rotations[onSide(kHandL, side)] =
+        pose.rotations[lower] * turn(-6 + 6 * cosineOf(phase - 0.15F), hinge);
 }
 
 struct StaffState {
@@ -239,75 +159,41 @@ StaffState staffAt(float phase) {
     return {tip, glm::normalize(vec3(aside, up, forward))};
 }
 
-vec3 armDirectionR() {
-    const vec3 left = armDirectionL();
-    return vec3(-left.x, left.y, left.z);
-}
-
-// The grip fixes the hand; arm and wrist are solved in turns, since each depends on the other.
 void poseStaffArm(Pose& pose, float phase) {
     const StaffState staff = staffAt(phase);
-    const vec3 grip = staff.tip + kStaffGripHeight * staff.direction;
-    const vec3 shoulder = pose.positionOf(kUpperArmR);
-    const mat3 restFrame = boneFrame(armDirectionR(), vec3(0, 0, 1));
-    vec3 forearm(0, 0, 1);
-    for (int iteration = 0; iteration < 12; ++iteration) {
-        const vec3 along =
-            glm::normalize(forearm - staff.direction * glm::dot(forearm, staff.direction));
-        const quat hand = glm::normalize(
-            glm::quat_cast(boneFrame(along, staff.direction) * glm::transpose(restFrame)));
-        const LimbPose arm =
-            poseLimb(kUpperArmR, kLowerArmR, kHandR, shoulder, grip - kGripDistance * along,
-                     vec3(-0.45F, -0.6F, -0.75F), vec3(0, 0, -1));
-        pose.rotations[kUpperArmR] = arm.upper;
-        pose.rotations[kLowerArmR] = arm.lower;
-        pose.rotations[kHandR] = hand;
-        forearm = arm.lowerDirection;
-    }
+    gripBar(pose, Side::right, staff.tip + kStaffGripHeight * staff.direction, staff.direction,
+            vec3(-0.45F, -0.6F, -0.75F));
 }
 
-Pose poseAt(float seconds) {
+Pose poseAt(float seconds, bool hasStaff) {
     const auto wrap = [](float x) { return x - std::floor(x); };
     const float phase = wrap(seconds / kStrideSeconds);
     Pose pose;
     pose.rotations.fill(quat(1, 0, 0, 0));
-    poseTrunk(pose, phase, wrap(seconds / kClipSeconds));
+    poseTrunk(pose, phase, wrap(seconds / kWalkSeconds));
     poseLeg(pose, phase, 1);
     poseLeg(pose, wrap(phase + 0.5F), -1);
-    poseFreeArm(pose, phase);
-    poseStaffArm(pose, wrap(phase + 0.03F));
+    poseFreeArm(pose, Side::left, phase);
+    if (hasStaff)
+        poseStaffArm(pose, wrap(phase + 0.03F));
+    else
+        poseFreeArm(pose, Side::right, wrap(phase + 0.5F));
     return pose;
 }
 
 }  // namespace
 
-quat staffRotation() {
+quat barRotation() {
     return glm::angleAxis(glm::half_pi<float>(), vec3(1, 0, 0));
 }
 
-vec3 staffTranslation() {
-    return kGripDistance * armDirectionR() - vec3(0, 0, kStaffGripHeight);
+vec3 barTranslation(float gripHeight) {
+    return kGripDistance * armDirection(Side::right) - vec3(0, 0, gripHeight);
 }
 
-WalkClip makeWalk() {
-    WalkClip clip;
-    const int keyCount = static_cast<int>(kClipSeconds) * kKeysPerSecond + 1;
-    for (int key = 0; key < keyCount; ++key) {
-        // The last key repeats the first, so that the loop is exact.
-        const bool isLast = key + 1 == keyCount;
-        const Pose pose = poseAt(isLast ? 0.0F : static_cast<float>(key) / kKeysPerSecond);
-        clip.timesSeconds.push_back(static_cast<float>(key) / kKeysPerSecond);
-        clip.hipsTranslations.push_back(pose.hips);
-        for (int joint = 0; joint < kJointCount; ++joint) {
-            const int parent = skeleton()[joint].parent;
-            quat local = pose.rotations[joint];
-            if (parent >= 0) local = glm::normalize(glm::inverse(pose.rotations[parent]) * local);
-            auto& keys = clip.rotations[joint];
-            if (!keys.empty() && glm::dot(keys.back(), local) < 0) local = -local;
-            keys.push_back(local);
-        }
-    }
-    return clip;
+Clip makeWalk(float shiftSeconds, bool hasStaff) {
+    return makeClip(kWalkSeconds, shiftSeconds,
+                    [=](float seconds) { return poseAt(seconds, hasStaff); });
 }
 
 }  // namespace tools

@@ -3,23 +3,20 @@
 // planted with each stride.
 #pragma once
 
-#include "make_scene_figure.h"
+#include "make_scene_pose.h"
 
 namespace tools {
 
-struct WalkClip {
-    std::vector<float> timesSeconds;          // [keys]
-    std::vector<glm::vec3> hipsTranslations;  // [keys]
-    std::array<std::vector<glm::quat>, kJointCount>
-        rotations;  // [joints][keys], relative to the parent
-};
-
-// The staff in the right hand's space at rest: along +Y from the tip at the origin.
+inline constexpr float kWalkSeconds = 2.0F;
 inline constexpr float kStaffLength = 2.0F;
 inline constexpr float kStaffGripHeight = 1.13F;
-glm::quat staffRotation();
-glm::vec3 staffTranslation();
 
-WalkClip makeWalk();
+// A bar in the right hand's space at rest: along +Y from its end at the origin, held at
+// `gripHeight`.
+glm::quat barRotation();
+glm::vec3 barTranslation(float gripHeight);
+
+// Starts `shiftSeconds` into the walk; without a staff both arms swing.
+Clip makeWalk(float shiftSeconds = 0, bool hasStaff = true);
 
 }  // namespace tools

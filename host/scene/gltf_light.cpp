@@ -4,7 +4,8 @@
 //   the node's largest world scale at rest KHR_lights_punctual: point, spot, directional; extras
 //   give them a size, which the extension has not: `radius` in metres and `angle` in degrees, on
 //   the node or else on the light
-// What cannot be used is named in a warning.
+// Extras of both kinds, read in the same way, fix the views of the light: `fov` in degrees and
+// `near` in metres What cannot be used is named in a warning.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -18,6 +19,7 @@ namespace penumbra::scene {
 namespace {
 
 constexpr double kSunAngleDegrees = 0.53;
+constexpr double kMaxFovDegrees = 140;
 constexpr double kDefaultNits = 1000;  // of the EXT_lights_area draft
 
 /// Largest length of an axis of the node in the world.
@@ -46,6 +48,20 @@ std::optional<double> readExtra(const tinygltf::Value& node, const tinygltf::Val
     for (const tinygltf::Value* extras : {&node, &light})
         if (extras->IsObject() && extras->Has(key)) return readNumber(*extras, key, 0, user);
     return {};
+}
+
+/// Field of view and near plane from the extras, where they are set.
+void readViews(const tinygltf::Value& nodeExtras, const tinygltf::Value& lightExtras,
+               const std::string& user, Light& light, std::string& problem) {
+    const auto fov = readExtra(nodeExtras, lightExtras, "fov", user);
+    const auto near = readExtra(nodeExtras, lightExtras, "near", user);
+    if (fov && !(*fov > 0 && *fov <= kMaxFovDegrees))
+        problem =
+            fmt::format("an extras.fov of {} degrees; allowed are up to {}", *fov, kMaxFovDegrees);
+    else if (near && !isPositive(*near))
+        problem = fmt::format("an extras.near of {} m", *near);
+    light.fovRad = glm::radians(fov.value_or(0));
+    light.nearMetres = near.value_or(0);
 }
 
 /// Nothing, and why in `problem`, for a light that cannot be used.
@@ -148,7 +164,7 @@ int readLightIndex(const tinygltf::Value& extension, std::size_t count, const st
 /// Adds the light to the scene and its node, or warns of its problem.
 void addLight(LoadContext& context, int nodeIndex, std::optional<Light> light,
               const std::string& name, const std::string& user, const std::string& problem) {
-    if (!light) {
+    if (!problem.empty()) {
         context.warn(fmt::format("{} is not used: it has {}", user, problem));
         return;
     }
@@ -176,6 +192,11 @@ void loadAreaLight(LoadContext& context, int nodeIndex, const tinygltf::Value& e
     std::string problem = source.IsObject() ? "" : "no properties";
     std::optional<Light> light;
     if (source.IsObject()) light = makeAreaLight(source, worldScale, user, problem);
+    if (light) {
+        static const tinygltf::Value kNone;
+        readViews(context.model.nodes[static_cast<std::size_t>(nodeIndex)].extras,
+                  source.Has("extras") ? source.Get("extras") : kNone, user, *light, problem);
+    }
     addLight(context, nodeIndex, std::move(light), name, user, problem);
 }
 
@@ -197,6 +218,7 @@ void loadLights(LoadContext& context, const std::vector<glm::dmat4>& worldFromNo
             fmt::format(" on node {}", nodeIndex);
         std::string problem;
         std::optional<Light> light = makePunctualLight(source, node.extras, user, problem);
+        if (light) readViews(node.extras, source.extras, user, *light, problem);
         addLight(context, nodeIndex, std::move(light), source.name, user, problem);
     }
 }

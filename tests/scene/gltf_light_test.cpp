@@ -116,6 +116,19 @@ TEST(GltfLightTest, DirectionalLightsHaveAnAngleAndLux) {
     expectNear(wide.radiance, glm::dvec3(4 / kPi));  // sin^2(30 degrees) = 1/4
 }
 
+TEST(GltfLightTest, ExtrasFixTheViews) {
+    const std::string extras = R"("extras":{"fov":60,"near":2})";
+    for (const Light& light :
+         {loadArea(R"("size":0.5)", "," + extras), loadArea(R"("size":0.5,)" + extras),
+          loadPunctual(R"("type":"point","extras":{"radius":1})", "," + extras)}) {
+        EXPECT_NEAR(light.fovRad, kPi / 3, 1e-12);
+        EXPECT_EQ(light.nearMetres, 2);
+    }
+    const Light fitted = loadArea(R"("size":0.5)");
+    EXPECT_EQ(fitted.fovRad, 0);
+    EXPECT_EQ(fitted.nearMetres, 0);
+}
+
 TEST(GltfLightTest, LightsThatCannotBeUsedAreNamed) {
     const auto check = [](const char* extension, const std::string& light, const char* problem) {
         const Scene scene = loadLit(extension, R"("name":"odd",)" + light);
@@ -127,6 +140,8 @@ TEST(GltfLightTest, LightsThatCannotBeUsedAreNamed) {
     check("EXT_lights_area", R"("type":"tube")", "supported are rect and disk");
     check("EXT_lights_area", R"("type":"rect","size":0)", "size 0");
     check("EXT_lights_area", R"("type":"disk","intensity":-1)", "negative");
+    check("EXT_lights_area", R"("extras":{"fov":141})", "fov of 141 degrees");
+    check("EXT_lights_area", R"("extras":{"near":0})", "near of 0 m");
     check("KHR_lights_punctual", R"("type":"ambient")", "supported are point, spot, directional");
     check("KHR_lights_punctual", R"("type":"point","extras":{"radius":-1})", "radius of -1 m");
     check("KHR_lights_punctual", R"("type":"point","color":[1,1])", "a color of 2 numbers");

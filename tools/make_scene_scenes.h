@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The scenes by name.
+#pragma once
+
+#include <string_view>
+
+#include "make_scene_gltf.h"
+
+namespace tools {
+
+void makeBuiltin(GltfWriter& writer);
+
+// The scenes measured in [VWSS] tables 1 and 2 (challenger, volund, warriors, cliffside) and [MVSS]
+// table 1 (mvss2, mvss6), rebuilt: same numbers of triangles and, for [VWSS], of points.
+void makeChallenger(GltfWriter& writer);
+void makeVolund(GltfWriter& writer);
+void makeWarriors(GltfWriter& writer);
+void makeCliffside(GltfWriter& writer);
+void makeMvss2(GltfWriter& writer);
+void makeMvss6(GltfWriter& writer);
+
+struct NamedScene {
+    std::string_view name;
+    void (*make)(GltfWriter&);
+};
+
+inline constexpr NamedScene kScenes[] = {
+    {"builtin", makeBuiltin},   {"challenger", makeChallenger}, {"volund", makeVolund},
+    {"warriors", makeWarriors}, {"cliffside", makeCliffside},   {"mvss2", makeMvss2},
+    {"mvss6", makeMvss6},
+};
+
+}  // namespace tools
