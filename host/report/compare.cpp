@@ -337,7 +337,8 @@ Comparison compare(const CompareOptions& options, Progress progress) {
     comparison.reference = runReference(options, truth, comparison, progress);
     SameSamples rays(options, progress);
     for (const auto& contender : contenders)
-        comparison.results.push_back(runContender(contender, comparison, truth, &rays,
+        comparison.results.push_back(runContender(contender, comparison, truth,
+                                                  options.sameSamples ? &rays : nullptr,
                                                   options.folder, progress, comparison.warnings));
     if (!options.sweep.empty()) runSweep(comparison, truth, progress);
     const auto& shown = truth.frames.at(comparison.shownFrame);

@@ -28,6 +28,7 @@ struct CompareOptions {
     std::string reference = "raytrace";       ///< a contender, or an EXR file (#### is the frame)
     std::string referenceSamples = "1024";    ///< of a reference that is a technique
     std::vector<int> frames{0};
+    bool sameSamples = true;                  ///< also compare with rays to the very same samples
     int repeats = 3;                          ///< timings of a single frame; medians are reported
     std::string sweep;                        ///< "light-samples=8,16,32" or "resolution=256,512"
     std::string command;                      ///< that makes the page again

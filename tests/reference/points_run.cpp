@@ -85,8 +85,8 @@ std::vector<std::vector<float>> PointsRun::warpedMaps(visibility::Parallelism fo
     runtime::Buffer<shared::MultiViewCounters> count(
         device(), "counters", std::vector<shared::MultiViewCounters>{counters});
     view.params.depthBits = bits;
-    visibility::DepthWarp(program("multi_view"), form, 3)
-        .run(pass_.buffers(), view, samples,
+    visibility::DepthWarp warp(program("multi_view"), form, 3);
+    warp.run(pass_.buffers(), view, samples,
              {0, view.params.views, &maps32, bits == 16 ? &maps16 : nullptr}, count);
     const auto words = maps32.download();
     const auto shorts = maps16.download();
@@ -95,8 +95,10 @@ std::vector<std::vector<float>> PointsRun::warpedMaps(visibility::Parallelism fo
     std::vector<std::vector<float>> result(views);
     for (std::size_t v = 0; v < views; ++v)
         for (std::size_t i = v * stride; i < v * stride + texels; ++i)
-            result[v].push_back(bits == 16 ? static_cast<float>(shorts[i]) / 65535.0F
-                                           : std::bit_cast<float>(words[i]));
+            // Where only 32-bit texels can be filled, they hold 16-bit depths to be packed
+            result[v].push_back(
+                bits == 32 ? std::bit_cast<float>(words[i])
+                           : static_cast<float>(warp.needsWideMaps() ? words[i] : shorts[i]) / 65535.0F);
     return result;
 }
 

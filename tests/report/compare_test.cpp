@@ -22,9 +22,9 @@ report::CompareOptions smallOptions(const std::string& folder) {
     report::CompareOptions options;
     options.base.width = 64;
     options.base.height = 40;
-    options.base.lightSamples = "8";
+    options.base.lightSamples = "4";
     options.base.device = "cpu";
-    options.techniques = {"vwss:resolution=128", "mvr:resolution=128"};
+    options.techniques = {"vwss:resolution=512", "mvr:resolution=512"};
     options.referenceSamples = "32";
     options.repeats = 1;
     options.folder = temporaryFolder(folder);
@@ -68,7 +68,7 @@ TEST(CompareTest, ResultsNameTimesErrorsAndFiles) {
         EXPECT_GE(r["ms"]["total"].get<double>(), r["ms"]["shadows"].get<double>());
         EXPECT_GT(r["error"]["reference"]["rmse"].get<double>(), 0);
         EXPECT_LT(r["error"]["reference"]["rmse"].get<double>(), 0.3);
-        // Without the error of eight samples
+        // Without the error of four samples
         EXPECT_LT(r["error"]["sameSamples"].get<double>(),
                   r["error"]["reference"]["rmse"].get<double>());
         for (const auto& file : r["files"])
