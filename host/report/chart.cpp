@@ -118,7 +118,7 @@ std::string pointMarks(const std::vector<Series>& series, const Axis& x, const A
         const double px = x.at(series[i].x[0]), py = y.at(series[i].y[0]);
         const bool right = px > kWidth - 120;
         svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"/>", px, py, colour(i)) +
-               text(px + (right ? -9 : 9), py - 6, right ? "end" : "start", series[i].name,
+               text(px + (right ? -9 : 9), py + (i % 2 ? 15 : -6), right ? "end" : "start", series[i].name,
                     fmt::format(" style=\"fill:{}\"", colour(i)));
     }
     return svg;
