@@ -334,9 +334,9 @@ Frame Pipeline::collect(int number) {
 
 std::vector<bool> Pipeline::testedPixels() const {
     const int n = options_.supersample;
-    std::vector<bool> tested(static_cast<std::size_t>(options_.width) *
-                                 static_cast<std::size_t>(options_.height),
-                             false);
+    std::vector<bool> tested(
+        static_cast<std::size_t>(options_.width) * static_cast<std::size_t>(options_.height),
+        false);
     for (const auto& states : keptStates_)
         for (int y = 0; y < height_; ++y)
             for (int x = 0; x < width_; ++x)

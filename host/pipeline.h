@@ -84,7 +84,7 @@ class Pipeline {
     std::vector<visibility::DepthMaps> keptMaps_;
     bool keepStates_ = false;
     std::vector<std::vector<std::uint32_t>> keptStates_;  ///< per light, when asked for
-    std::vector<scene::AreaLight> lights_;  ///< of the frame in flight
+    std::vector<scene::AreaLight> lights_;                ///< of the frame in flight
     scene::CameraFrame camera_;
     double exposure_ = 1;
     std::uint64_t plannedBytes_ = 0;

@@ -7,9 +7,12 @@ namespace penumbra::papers {
 
 nlohmann::json mvssTable1(const Request& request) {
     const std::vector<int> widths{11, 10, 7, 10, 10, 10, 9, 9};
-    fmt::print("Milliseconds at 1920x1200. The paper (GeForce GTX 580, 512^2): 12,086 triangles 0.3 + 1.9 = 2.2; 36,258 "
-               "triangles 0.9 + 2.4 = 3.3\n");
-    printRow({"scene", "triangles", "maps of", "maps", "shading", "total", "maps %", "maps MB"}, widths);
+    fmt::print(
+        "Milliseconds at 1920x1200. The paper (GeForce GTX 580, 512^2): 12,086 triangles 0.3 + 1.9 "
+        "= 2.2; 36,258 "
+        "triangles 0.9 + 2.4 = 3.3\n");
+    printRow({"scene", "triangles", "maps of", "maps", "shading", "total", "maps %", "maps MB"},
+             widths);
     nlohmann::json rows = nlohmann::json::array();
     auto large = request;
     large.width = 1920;
@@ -17,8 +20,8 @@ nlohmann::json mvssTable1(const Request& request) {
     for (const char* scene : {"mvss2", "mvss6"})
         for (const int size : {512, 1024}) {
             const auto comparison = compareOn(scene, fmt::format("{}-{}", scene, size),
-                                              {fmt::format("mvss:resolution={}", size)}, "none", large,
-                                              baseOptions(large, 28));
+                                              {fmt::format("mvss:resolution={}", size)}, "none",
+                                              large, baseOptions(large, 28));
             const auto& r = comparison.results[0];
             const double maps = stageMs(r, {"depth maps"});
             const double shading = stageMs(r, {"lighting", "shading"});

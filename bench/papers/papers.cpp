@@ -12,7 +12,8 @@ namespace penumbra::papers {
 
 const std::vector<Table>& tables() {
     static const std::vector<Table> list = {
-        {"vwss-table1", "[VWSS] table 1: cost and error with 24 depth maps, four scenes", vwssTable1},
+        {"vwss-table1", "[VWSS] table 1: cost and error with 24 depth maps, four scenes",
+         vwssTable1},
         {"vwss-table2", "[VWSS] table 2: the same with 128 depth maps", vwssTable2},
         {"vwss-fig8", "[VWSS] figure 8: vwss and mvr as the light grows to 64 times its area",
          vwssFigure8},
@@ -108,7 +109,8 @@ double deviation(const report::ContenderResult& result) {
     double mean = 0, squares = 0;
     const auto count = static_cast<double>(result.frames.size());
     for (const auto& frame : result.frames) mean += frame.totalMs / count;
-    for (const auto& frame : result.frames) squares += (frame.totalMs - mean) * (frame.totalMs - mean);
+    for (const auto& frame : result.frames)
+        squares += (frame.totalMs - mean) * (frame.totalMs - mean);
     return count > 1 ? std::sqrt(squares / (count - 1)) : 0;
 }
 

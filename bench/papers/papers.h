@@ -10,8 +10,8 @@
 namespace penumbra::papers {
 
 struct Request {
-    std::string report;   ///< folder for pages of each scene; empty: none are kept
-    int frames = 4;       ///< of the animation, evenly spaced
+    std::string report;  ///< folder for pages of each scene; empty: none are kept
+    int frames = 4;      ///< of the animation, evenly spaced
     int width = 1280, height = 720;
     std::string device;
 };

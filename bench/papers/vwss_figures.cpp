@@ -14,11 +14,11 @@ json errorRows(const std::string& scene, const report::Comparison& comparison) {
     json rows = json::array();
     const std::vector<int> widths{11, 18, 11, 9, 9, 9, 9};
     for (const auto& r : comparison.results) {
-        printRow({scene, r.contender.label, fmt::format("{:.2f}", r.ms),
-                  fmt::format("{:.4f}", r.error.rmse), fmt::format("{:.4f}", r.error.flip),
-                  fmt::format("{:.3f}", r.error.frameRmse255),
-                  fmt::format("{:.4f}", r.error.frameFlip)},
-                 widths);
+        printRow(
+            {scene, r.contender.label, fmt::format("{:.2f}", r.ms),
+             fmt::format("{:.4f}", r.error.rmse), fmt::format("{:.4f}", r.error.flip),
+             fmt::format("{:.3f}", r.error.frameRmse255), fmt::format("{:.4f}", r.error.frameFlip)},
+            widths);
         rows.push_back({{"scene", scene},
                         {"technique", r.contender.label},
                         {"ms", r.ms},
@@ -44,15 +44,18 @@ std::string volundLight(double side) {
     const double x = -0.55, y = 1.1, z = 0.5, distance = 5.669;
     const double scale = distance / std::sqrt(x * x + y * y + z * z);
     // The same power from a larger area
-    return fmt::format("rect:at={:.6f},{:.6f},{:.6f};aim=0,1.4,0;size={}x{};radiance={:.4f};fov=60;near=2",
-                       scale * x, 1.4 + scale * y, scale * z, side, side, 480 * 0.25 / (side * side));
+    return fmt::format(
+        "rect:at={:.6f},{:.6f},{:.6f};aim=0,1.4,0;size={}x{};radiance={:.4f};fov=60;near=2",
+        scale * x, 1.4 + scale * y, scale * z, side, side, 480 * 0.25 / (side * side));
 }
 
 }  // namespace
 
 json vwssFigure8(const Request& request) {
-    fmt::print("volund under a light that grows from 0.25 m to 2 m, samples with its area; errors against rays to 1024 "
-               "samples\n");
+    fmt::print(
+        "volund under a light that grows from 0.25 m to 2 m, samples with its area; errors against "
+        "rays to 1024 "
+        "samples\n");
     printErrorHeader();
     json rows = json::array();
     for (int area = 1; area <= 64; area *= 2) {
@@ -63,8 +66,8 @@ json vwssFigure8(const Request& request) {
         auto some = request;
         some.frames = 1;
         fmt::print("{} x the area: {:.3f} m, {} samples\n", area, side, 8 * area);
-        append(rows, errorRows(name, compareOn("volund", name, {"vwss", "mvr"}, "raytrace:samples=1024",
-                                               some, base)));
+        append(rows, errorRows(name, compareOn("volund", name, {"vwss", "mvr"},
+                                               "raytrace:samples=1024", some, base)));
     }
     return rows;
 }
@@ -74,8 +77,9 @@ json vwssFigure9(const Request& request) {
     printErrorHeader();
     json rows = json::array();
     for (const char* scene : {"warriors", "cliffside"})
-        append(rows, errorRows(scene, compareOn(scene, std::string(scene) + "-fig9", {"vwss", "pcss"},
-                                                "mvr:samples=512", request, baseOptions(request, 24))));
+        append(rows,
+               errorRows(scene, compareOn(scene, std::string(scene) + "-fig9", {"vwss", "pcss"},
+                                          "mvr:samples=512", request, baseOptions(request, 24))));
     return rows;
 }
 
@@ -107,9 +111,8 @@ json vwssFigure13(const Request& request) {
         some.frames = 1;
         some.width = 320;
         some.height = 180;
-        const auto comparison =
-            compareOn("warriors", fmt::format("warriors-{}-maps", maps), techniques, "none", some,
-                      baseOptions(some, maps));
+        const auto comparison = compareOn("warriors", fmt::format("warriors-{}-maps", maps),
+                                          techniques, "none", some, baseOptions(some, maps));
         json row = {{"maps", maps}};
         for (std::size_t i = 0; i < variants.size(); ++i) {
             const double ms = stageMs(comparison.results[i], {"points", "depth maps"});

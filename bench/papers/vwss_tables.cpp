@@ -105,28 +105,30 @@ json rowJson(const std::string& scene, const report::ContenderResult& r, const M
 }
 
 json runTable(const PaperRow (&paper)[12], int maps, const Request& request) {
-    fmt::print("Milliseconds; x: mvr in its textbook form over this technique; RMSE: 8-bit levels of the shaded "
-               "frame against mvr with 512 maps.\n");
+    fmt::print(
+        "Milliseconds; x: mvr in its textbook form over this technique; RMSE: 8-bit levels of the "
+        "shaded "
+        "frame against mvr with 512 maps.\n");
     printHeader();
     json rows = json::array();
-    const std::vector<std::string> techniques{"mvr:form=textbook", "mvr", "vwss", "pcss", "raytrace"};
+    const std::vector<std::string> techniques{"mvr:form=textbook", "mvr", "vwss", "pcss",
+                                              "raytrace"};
     for (std::size_t first = 0; first < 12; first += 3) {
         const std::string scene = paper[first].scene;
-        const auto comparison =
-            compareOn(scene, fmt::format("{}-{}", scene, maps), techniques, "mvr:samples=512",
-                      request, baseOptions(request, maps));
+        const auto comparison = compareOn(scene, fmt::format("{}-{}", scene, maps), techniques,
+                                          "mvr:samples=512", request, baseOptions(request, maps));
         const auto textbook = measuredOf(comparison.results[0]);
         for (const auto& r : comparison.results) {
             const auto m = measuredOf(r);
             const bool first_ = &r == &comparison.results[0];
             const double xDepth = m.depth() > 0 ? textbook.depth() / m.depth() : 0;
             const double xTotal = textbook.total / m.total;
-            printRow({first_ ? scene : "", r.contender.label,
-                      r.points ? std::to_string(r.points) : "", ms(m.gbuffer),
-                      ms(m.pointGeneration), ms(m.depthMaps), ms(m.lighting), ms(m.total),
-                      ms(deviation(r)), xDepth > 0 ? fmt::format("{:.2f}", xDepth) : "-",
-                      fmt::format("{:.2f}", xTotal), fmt::format("{:.3f}", r.error.frameRmse255)},
-                     kWidths);
+            printRow(
+                {first_ ? scene : "", r.contender.label, r.points ? std::to_string(r.points) : "",
+                 ms(m.gbuffer), ms(m.pointGeneration), ms(m.depthMaps), ms(m.lighting), ms(m.total),
+                 ms(deviation(r)), xDepth > 0 ? fmt::format("{:.2f}", xDepth) : "-",
+                 fmt::format("{:.2f}", xTotal), fmt::format("{:.3f}", r.error.frameRmse255)},
+                kWidths);
             rows.push_back(rowJson(scene, r, m, xDepth, xTotal));
         }
         for (std::size_t i = first; i < first + 3; ++i) printPaper(paper[i], paper[first]);

@@ -86,7 +86,9 @@ void addLights(CLI::App& render, Arguments& a) {
         .add_option("--light-samples", o.lightSamples,
                     "samples of each light: N, or MxN for a grid")
         ->capture_default_str();
-    render.add_option("--light-pattern", o.lightPattern, "hammersley, poisson, grid, jittered; raytrace: also random, anew in each "
+    render
+        .add_option("--light-pattern", o.lightPattern,
+                    "hammersley, poisson, grid, jittered; raytrace: also random, anew in each "
                     "pixel")
         ->capture_default_str();
     render
@@ -116,7 +118,8 @@ void addPicture(CLI::App& command, Arguments& a) {
     addScene(command, a);
     command.add_option("--fps", o.fps, "frames per second")->capture_default_str();
     command.add_option("--size", a.size, "pixels")->capture_default_str();
-    command.add_option("--supersample", o.supersample, "samples along each side of a pixel, 1 to 8")
+    command
+        .add_option("--supersample", o.supersample, "samples along each side of a pixel, 1 to 8")
         ->capture_default_str();
     command
         .add_option("--exposure", o.exposure,
@@ -267,10 +270,10 @@ void fillOptions(Arguments& a, bool hasFov) {
 int runCompareWith(Arguments& a, int argc, char** argv) {
     for (const auto& [key, value] : a.render.options.settings) {
         const auto technique = key.substr(0, key.find('.'));
-        requireUsage(std::any_of(a.compare.techniques.begin(), a.compare.techniques.end(),
-                                 [&](const auto& t) { return t.substr(0, t.find(':')) == technique; }),
-                     "--set '{}={}' is for {}, which --techniques does not list", key, value,
-                     technique);
+        requireUsage(
+            std::any_of(a.compare.techniques.begin(), a.compare.techniques.end(),
+                        [&](const auto& t) { return t.substr(0, t.find(':')) == technique; }),
+            "--set '{}={}' is for {}, which --techniques does not list", key, value, technique);
     }
     a.compare.options = a.render.options;
     a.compare.command = "penumbra";
@@ -284,7 +287,7 @@ int runCompareWith(Arguments& a, int argc, char** argv) {
 
 /// Names a word that is no command, which CLI11 does not.
 void requireCommand(const std::string& word) {
-    const std::vector<std::string> commands{"render", "compare",    "diff",
+    const std::vector<std::string> commands{"render", "compare", "diff",
                                             "info",   "devices", "techniques"};
     requireUsage(!word.empty(), "no command is given; allowed: {}", fmt::join(commands, ", "));
     requireUsage(

@@ -41,8 +41,8 @@ int runCompare(const CompareArguments& arguments) {
         fmt::print("{}", report::resultsJson(comparison));
         return 0;
     }
-    fmt::print("{:<24} {:>10} {:>9} {:>8} {:>8} {:>7}\n", "technique", "shadows ms", "x mvr", "RMSE",
-               "FLIP", "max");
+    fmt::print("{:<24} {:>10} {:>9} {:>8} {:>8} {:>7}\n", "technique", "shadows ms", "x mvr",
+               "RMSE", "FLIP", "max");
     for (const auto& r : comparison.results)
         fmt::print("{:<24} {:>10.2f} {:>9} {:>8.4f} {:>8.4f} {:>7.3f}\n", r.contender.label, r.ms,
                    r.fasterThanMvr ? fmt::format("{:.2f}", *r.fasterThanMvr) : "-", r.error.rmse,

@@ -91,8 +91,8 @@ std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int wi
     png_set_sRGB(w.png, w.info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(w.png, w.info);
     for (int y = 0; y < height; ++y)
-        png_write_row(w.png, rgb.data() + 3 * static_cast<std::size_t>(y) *
-                                              static_cast<std::size_t>(width));
+        png_write_row(
+            w.png, rgb.data() + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(width));
     png_write_end(w.png, nullptr);
     return bytes;
 }

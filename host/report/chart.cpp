@@ -57,7 +57,10 @@ class Axis {
             return values;
         }
         const double raw = (high_ - low_) / 5, power = std::pow(10, std::floor(std::log10(raw)));
-        const double step = power * (raw / power < 1.5 ? 1 : raw / power < 3.5 ? 2 : raw / power < 7.5 ? 5 : 10);
+        const double step = power * (raw / power < 1.5   ? 1
+                                     : raw / power < 3.5 ? 2
+                                     : raw / power < 7.5 ? 5
+                                                         : 10);
         for (double v = std::ceil(low_ / step) * step; v <= high_ * (1 + 1e-9); v += step)
             values.push_back(std::abs(v) < step / 1e6 ? 0 : v);
         return values;
@@ -89,8 +92,9 @@ std::string frame(const Axis& x, const Axis& y, const ChartLabels& labels) {
                            kWidth - kRight) +
                text(kLeft - 6, y.at(tick) + 4, "end", fmt::format("{:.3g}", tick));
     svg += text((kLeft + kWidth - kRight) / 2, kHeight - 12, "middle", labels.x);
-    svg += fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-                       (kTop + kHeight - kBottom) / 2, escaped(labels.y));
+    svg += fmt::format(
+        "<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+        (kTop + kHeight - kBottom) / 2, escaped(labels.y));
     return svg;
 }
 
@@ -107,8 +111,8 @@ std::string paretoFront(const std::vector<Series>& series, const Axis& x, const 
         best = py;
         path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x.at(px), y.at(py));
     }
-    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"var(--faint)\" stroke-dasharray=\"4 4\"/>",
-                       path);
+    return fmt::format(
+        "<path d=\"{}\" fill=\"none\" stroke=\"var(--faint)\" stroke-dasharray=\"4 4\"/>", path);
 }
 
 std::string pointMarks(const std::vector<Series>& series, const Axis& x, const Axis& y) {
@@ -117,9 +121,10 @@ std::string pointMarks(const std::vector<Series>& series, const Axis& x, const A
         if (series[i].x.empty()) continue;
         const double px = x.at(series[i].x[0]), py = y.at(series[i].y[0]);
         const bool right = px > kWidth - 120;
-        svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"/>", px, py, colour(i)) +
-               text(px + (right ? -9 : 9), py + (i % 2 ? 15 : -6), right ? "end" : "start", series[i].name,
-                    fmt::format(" style=\"fill:{}\"", colour(i)));
+        svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"/>", px, py,
+                           colour(i)) +
+               text(px + (right ? -9 : 9), py + (i % 2 ? 15 : -6), right ? "end" : "start",
+                    series[i].name, fmt::format(" style=\"fill:{}\"", colour(i)));
     }
     return svg;
 }
@@ -135,8 +140,8 @@ std::string lines(const std::vector<Series>& series, const Axis& x, const Axis& 
                 dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>", px,
                                     py, colour(i));
         }
-        svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>{}", path,
-                           colour(i), dots);
+        svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>{}",
+                           path, colour(i), dots);
         svg += text(kWidth - kRight - 4, kTop + 12 + 15 * static_cast<double>(i), "end",
                     series[i].name, fmt::format(" style=\"fill:{}\"", colour(i)));
     }
@@ -151,12 +156,11 @@ std::string chart(const std::vector<Series>& series, const ChartLabels& labels) 
         xs.insert(xs.end(), s.x.begin(), s.x.end());
         ys.insert(ys.end(), s.y.begin(), s.y.end());
     }
-    const Axis x = labels.logX || labels.points
-                       ? Axis(xs, labels.logX, kLeft, kWidth - kRight)
-                       : Axis::tight(xs, kLeft, kWidth - kRight);
+    const Axis x = labels.logX || labels.points ? Axis(xs, labels.logX, kLeft, kWidth - kRight)
+                                                : Axis::tight(xs, kLeft, kWidth - kRight);
     const Axis y(ys, labels.logY, kHeight - kBottom, kTop);
-    return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{}{}</svg>", kWidth,
-                       kHeight, escaped(labels.title), frame(x, y, labels),
+    return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{}{}</svg>",
+                       kWidth, kHeight, escaped(labels.title), frame(x, y, labels),
                        labels.points ? pointMarks(series, x, y) : lines(series, x, y));
 }
 

@@ -69,8 +69,8 @@ void add(FrameError& sum, const FrameError& e) {
 }
 
 FrameError scaled(FrameError e, double factor) {
-    for (double* value : {&e.rmse, &e.mean, &e.share4, &e.flip, &e.frameRmse255, &e.frameFlip,
-                          &e.frameSsim})
+    for (double* value :
+         {&e.rmse, &e.mean, &e.share4, &e.flip, &e.frameRmse255, &e.frameFlip, &e.frameSsim})
         *value *= factor;
     return e;
 }
@@ -176,8 +176,8 @@ class SameSamples {
     const metrics::Plane& at(const Contender& contender, int number) {
         const Contender rays = raysTo(contender, options_.base);
         const auto& o = rays.options;
-        const std::string key = fmt::format("{} {} {} {}", o.lightSamples, o.lightPattern, o.seed,
-                                            o.temporal);
+        const std::string key =
+            fmt::format("{} {} {} {}", o.lightSamples, o.lightPattern, o.seed, o.temporal);
         auto& frames = known_[key];
         if (frames.empty()) {
             progress_(fmt::format("rays to {} {} samples", o.lightSamples, o.lightPattern));
@@ -288,9 +288,8 @@ void runSweep(Comparison& comparison, const Truth& truth, Progress progress) {
             if (samples && (technique == "pcss" || technique == "essm" || technique == "none"))
                 continue;
             if (!samples && !hasSetting(technique, key)) continue;
-            const auto contender =
-                parseContender(fmt::format("{}:{}={}", text, samples ? own : key, value),
-                               options.base);
+            const auto contender = parseContender(
+                fmt::format("{}:{}={}", text, samples ? own : key, value), options.base);
             auto result = runContender(contender, comparison, truth, nullptr, "", progress,
                                        comparison.warnings);
             result.contender.label = text;
@@ -302,9 +301,9 @@ void runSweep(Comparison& comparison, const Truth& truth, Progress progress) {
 }
 
 void compareTimes(Comparison& comparison) {
-    const auto mvr = std::find_if(
-        comparison.results.begin(), comparison.results.end(),
-        [](const auto& r) { return r.contender.options.technique == "mvr"; });
+    const auto mvr =
+        std::find_if(comparison.results.begin(), comparison.results.end(),
+                     [](const auto& r) { return r.contender.options.technique == "mvr"; });
     if (mvr == comparison.results.end()) return;
     for (auto& result : comparison.results)
         if (result.ms > 0) result.fasterThanMvr = mvr->ms / result.ms;
@@ -315,8 +314,8 @@ void compareTimes(Comparison& comparison) {
 Comparison compare(const CompareOptions& options, Progress progress) {
     requireUsage(!options.techniques.empty(), "--techniques names none; see penumbra techniques");
     requireUsage(!options.frames.empty(), "--frames names none");
-    requireUsage(options.repeats >= 1 && options.repeats <= 100, "--repeats {} is outside of 1 to 100",
-                 options.repeats);
+    requireUsage(options.repeats >= 1 && options.repeats <= 100,
+                 "--repeats {} is outside of 1 to 100", options.repeats);
     std::vector<Contender> contenders;
     std::set<std::string> labels{"reference"};
     for (const auto& text : options.techniques) {
@@ -327,8 +326,8 @@ Comparison compare(const CompareOptions& options, Progress progress) {
         for (const auto& value : parseSweep(options.sweep).second) sweepNumber(value);
     std::error_code error;
     std::filesystem::create_directories(options.folder, error);
-    require(std::filesystem::is_directory(options.folder), "--report {}: the folder cannot be made: {}",
-            options.folder, error.message());
+    require(std::filesystem::is_directory(options.folder),
+            "--report {}: the folder cannot be made: {}", options.folder, error.message());
 
     Comparison comparison;
     comparison.options = options;
@@ -344,16 +343,15 @@ Comparison compare(const CompareOptions& options, Progress progress) {
     const auto& shown = truth.frames.at(comparison.shownFrame);
     comparison.width = shown.width;
     comparison.height = shown.height;
-    comparison.reference.shown = {shown.width, shown.height, shown.picture, shown.visibility,
-                                  shown.mask,  {}};
+    comparison.reference.shown = {shown.width,      shown.height, shown.picture,
+                                  shown.visibility, shown.mask,   {}};
     compareTimes(comparison);
     // A reference from a file has no device
     comparison.device = comparison.results.front().settings.at("device");
     comparison.driver = comparison.results.front().settings.at("driver");
     std::sort(comparison.warnings.begin(), comparison.warnings.end());
-    comparison.warnings.erase(
-        std::unique(comparison.warnings.begin(), comparison.warnings.end()),
-        comparison.warnings.end());
+    comparison.warnings.erase(std::unique(comparison.warnings.begin(), comparison.warnings.end()),
+                              comparison.warnings.end());
     return comparison;
 }
 

@@ -24,20 +24,21 @@ Contender parseContender(const std::string& text, const RenderOptions& base);
 
 struct CompareOptions {
     RenderOptions base;
-    std::vector<std::string> techniques;      ///< texts of contenders
-    std::string reference = "raytrace";       ///< a contender, or an EXR file (#### is the frame)
-    std::string referenceSamples = "1024";    ///< of a reference that is a technique
+    std::vector<std::string> techniques;    ///< texts of contenders
+    std::string reference = "raytrace";     ///< a contender, or an EXR file (#### is the frame)
+    std::string referenceSamples = "1024";  ///< of a reference that is a technique
     std::vector<int> frames{0};
-    bool sameSamples = true;                  ///< also compare with rays to the very same samples
-    int repeats = 3;                          ///< timings of a single frame; medians are reported
-    std::string sweep;                        ///< "light-samples=8,16,32" or "resolution=256,512"
-    std::string command;                      ///< that makes the page again
-    std::string folder;                       ///< of the report
+    bool sameSamples = true;  ///< also compare with rays to the very same samples
+    int repeats = 3;          ///< timings of a single frame; medians are reported
+    std::string sweep;        ///< "light-samples=8,16,32" or "resolution=256,512"
+    std::string command;      ///< that makes the page again
+    std::string folder;       ///< of the report
 };
 
 /// Distance of one frame from another.
 struct FrameError {
-    /// Of visibility over receivers that the light can reach; of the frame where one image has none.
+    /// Of visibility over receivers that the light can reach; of the frame where one image has
+    /// none.
     double rmse = 0, maximum = 0, mean = 0, share4 = 0, flip = 0;
     /// Of the tone-mapped frame: 8-bit levels, FLIP and SSIM.
     double frameRmse255 = 0, frameFlip = 0, frameSsim = 1;
@@ -45,11 +46,11 @@ struct FrameError {
 
 struct FrameResult {
     int number = 0;
-    FrameError reference;   ///< against the reference
-    double sameSamples = 0; ///< RMSE of visibility against rays to the very same light samples
-    double flicker = 0;     ///< mean change of visibility since the last frame, static receivers
-    double ms = 0;          ///< of the technique: all stages but the camera's and shading
-    double totalMs = 0;     ///< of all stages
+    FrameError reference;    ///< against the reference
+    double sameSamples = 0;  ///< RMSE of visibility against rays to the very same light samples
+    double flicker = 0;      ///< mean change of visibility since the last frame, static receivers
+    double ms = 0;           ///< of the technique: all stages but the camera's and shading
+    double totalMs = 0;      ///< of all stages
 };
 
 /// What the page shows of one frame.
@@ -65,10 +66,10 @@ struct ContenderResult {
     Contender contender;
     std::map<std::string, double> stageMs;  ///< medians over frames
     std::vector<std::string> stageOrder;
-    double ms = 0, totalMs = 0;             ///< medians
-    std::optional<double> fasterThanMvr;    ///< ratio of `ms`; none without mvr in the list
+    double ms = 0, totalMs = 0;           ///< medians
+    std::optional<double> fasterThanMvr;  ///< ratio of `ms`; none without mvr in the list
     std::optional<double> sweepValue;
-    FrameError error;                       ///< means over frames (maximum: largest)
+    FrameError error;  ///< means over frames (maximum: largest)
     double sameSamples = 0, flicker = 0;
     std::uint64_t points = 0, mapTriangles = 0, bytes = 0;
     std::vector<FrameResult> frames;

@@ -15,8 +15,8 @@ namespace {
 
 /// Stages that every technique shares: the camera's and shading. The rest is the technique's.
 bool isShared(const std::string& stage) {
-    static const char* const kShared[] = {"other", "geometry", "raster", "resolve", "shading",
-                                          "temporal"};
+    static const char* const kShared[] = {"other",   "geometry", "raster",
+                                          "resolve", "shading",  "temporal"};
     return std::find(std::begin(kShared), std::end(kShared), stage) != std::end(kShared);
 }
 
@@ -61,7 +61,9 @@ std::string fileName(const std::string& label) {
 
 ContenderRun::ContenderRun(const Contender& contender, const std::vector<int>& frames, int repeats,
                            bool positions)
-    : contender_(contender), repeats_(frames.size() == 1 ? repeats : 1), single_(frames.size() == 1) {
+    : contender_(contender),
+      repeats_(frames.size() == 1 ? repeats : 1),
+      single_(frames.size() == 1) {
     auto options = contender.options;
     options.profile = true;
     options.aovs = {"visibility"};

@@ -16,7 +16,8 @@ std::string heading(const Comparison& c) {
     const auto scene = c.options.base.scene.empty() ? "the built-in scene" : c.options.base.scene;
     std::string html = fmt::format("<h1>Soft shadows of {}</h1>", escaped(scene));
     html += fmt::format(
-        "<p>{} x {} pixels, {} frame{}, {} light samples ({}) where a technique has no own; reference: "
+        "<p>{} x {} pixels, {} frame{}, {} light samples ({}) where a technique has no own; "
+        "reference: "
         "{}{}. Device: {} ({}). penumbra {}.</p>",
         c.width, c.height, c.options.frames.size(), c.options.frames.size() == 1 ? "" : "s",
         escaped(c.options.base.lightSamples), escaped(c.options.base.lightPattern),
@@ -84,13 +85,18 @@ std::string summary(const Comparison& c) {
         html += several ? fmt::format("<td>{:.5f}</td></tr>", r.flicker) : std::string("</tr>");
     }
     html +=
-        "</tbody></table></div><p>RMSE, FLIP, max and the share beyond 4/255 are of visibility against the reference, "
-        "over the pixels that a light can reach; <i>same samples</i> is the RMSE of visibility against rays to the very "
-        "samples that the technique uses: its error without that of the sampling; <i>picture</i> is the tone-mapped "
-        "frame. <i>Shadows</i> are all stages but the camera's and shading. The best of a column is marked.";
+        "</tbody></table></div><p>RMSE, FLIP, max and the share beyond 4/255 are of visibility "
+        "against the reference, "
+        "over the pixels that a light can reach; <i>same samples</i> is the RMSE of visibility "
+        "against rays to the very "
+        "samples that the technique uses: its error without that of the sampling; <i>picture</i> "
+        "is the tone-mapped "
+        "frame. <i>Shadows</i> are all stages but the camera's and shading. The best of a column "
+        "is marked.";
     if (several)
         html += fmt::format(
-            " Flicker is the mean change of visibility from frame to frame on receivers that rest; the reference has "
+            " Flicker is the mean change of visibility from frame to frame on receivers that rest; "
+            "the reference has "
             "{:.5f}.",
             c.reference.flicker);
     return html + "</p>";
@@ -99,15 +105,17 @@ std::string summary(const Comparison& c) {
 std::string stageTable(const Comparison& c) {
     const auto stages = ownStages(c);
     std::string html =
-        "<h3>Milliseconds of each stage</h3><div class=\"scroll\"><table><thead><tr><th>technique</th>";
+        "<h3>Milliseconds of each stage</h3><div "
+        "class=\"scroll\"><table><thead><tr><th>technique</th>";
     for (const auto& stage : stages) html += fmt::format("<th>{}</th>", escaped(stage));
     html += "</tr></thead><tbody>";
     for (std::size_t i = 0; i < c.results.size(); ++i) {
         html += nameCell(i, c.results[i]);
         for (const auto& stage : stages) {
             const auto found = c.results[i].stageMs.find(stage);
-            html += found == c.results[i].stageMs.end() ? "<td><small>-</small></td>"
-                                                        : fmt::format("<td>{:.2f}</td>", found->second);
+            html += found == c.results[i].stageMs.end()
+                        ? "<td><small>-</small></td>"
+                        : fmt::format("<td>{:.2f}</td>", found->second);
         }
         html += "</tr>";
     }
@@ -117,20 +125,25 @@ std::string stageTable(const Comparison& c) {
 std::string slider(const std::string& left, const std::string& leftName, const std::string& right,
                    const std::string& rightName) {
     return fmt::format(
-        "<div class=\"slider\"><img src=\"{2}\" alt=\"{3}\"><img class=\"over\" src=\"{0}\" alt=\"{1}\">"
-        "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\" aria-label=\"{1} against {3}\">"
-        "<div class=\"bar\"></div><span class=\"left\">{1}</span><span class=\"right\">{3}</span></div>",
+        "<div class=\"slider\"><img src=\"{2}\" alt=\"{3}\"><img class=\"over\" src=\"{0}\" "
+        "alt=\"{1}\">"
+        "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\" aria-label=\"{1} "
+        "against {3}\">"
+        "<div class=\"bar\"></div><span class=\"left\">{1}</span><span "
+        "class=\"right\">{3}</span></div>",
         left, escaped(leftName), right, escaped(rightName));
 }
 
 std::string pictures(const Comparison& c) {
     const std::string truth = pictureUri(c.reference.shown.frame, c.width, c.height);
     std::string html = fmt::format(
-        "<h2>Beside the reference</h2><p>Frame {}. Move over a picture, or use the arrow keys: the technique is left of "
+        "<h2>Beside the reference</h2><p>Frame {}. Move over a picture, or use the arrow keys: the "
+        "technique is left of "
         "the seam, the reference right of it. Below it, where the technique errs.</p>",
         c.shownFrame);
     html += fmt::format(
-        "<div class=\"legend\">too dark<i style=\"background:{}\"></i>too light (full colour: {} of visibility)</div>"
+        "<div class=\"legend\">too dark<i style=\"background:{}\"></i>too light (full colour: {} "
+        "of visibility)</div>"
         "<div class=\"legend\">FLIP 0<i style=\"background:{}\"></i>1</div>",
         errorGradient(), kFullError, flipGradient());
     for (const auto& r : c.results) {
@@ -140,7 +153,8 @@ std::string pictures(const Comparison& c) {
         html += "<div class=\"pair\">";
         if (r.shown.visibility.size() == c.reference.shown.visibility.size())
             html += fmt::format(
-                "<figure><img alt=\"error of visibility of {0}\" src=\"{1}\"><figcaption>visibility: mean "
+                "<figure><img alt=\"error of visibility of {0}\" "
+                "src=\"{1}\"><figcaption>visibility: mean "
                 "difference {2:.4f}, RMSE {3:.4f}</figcaption></figure>",
                 escaped(r.contender.label),
                 pictureUri(errorColours(c.reference.shown, r.shown, kFullError), c.width, c.height),
@@ -158,22 +172,26 @@ std::string insets(const Comparison& c) {
     const auto squares = findInsets(c, 4);
     if (squares.empty()) return "";
     std::string html =
-        "<h2>Where they differ most</h2><p>The parts of the frame in which the techniques' errors are farthest apart.</p>";
-    html += fmt::format("<div class=\"where\"><img alt=\"reference with the parts marked\" src=\"{}\">",
-                        pictureUri(c.reference.shown.frame, c.width, c.height));
+        "<h2>Where they differ most</h2><p>The parts of the frame in which the techniques' errors "
+        "are farthest apart.</p>";
+    html +=
+        fmt::format("<div class=\"where\"><img alt=\"reference with the parts marked\" src=\"{}\">",
+                    pictureUri(c.reference.shown.frame, c.width, c.height));
     for (std::size_t i = 0; i < squares.size(); ++i)
-        html += fmt::format("<i style=\"left:{:.2f}%;top:{:.2f}%;width:{:.2f}%;height:{:.2f}%\">{}</i>",
-                            100.0 * squares[i].x / c.width, 100.0 * squares[i].y / c.height,
-                            100.0 * squares[i].size / c.width, 100.0 * squares[i].size / c.height,
-                            i + 1);
+        html += fmt::format(
+            "<i style=\"left:{:.2f}%;top:{:.2f}%;width:{:.2f}%;height:{:.2f}%\">{}</i>",
+            100.0 * squares[i].x / c.width, 100.0 * squares[i].y / c.height,
+            100.0 * squares[i].size / c.width, 100.0 * squares[i].size / c.height, i + 1);
     html += "</div>";
     for (std::size_t i = 0; i < squares.size(); ++i) {
         html += fmt::format("<h3>Part {}</h3><div class=\"insets\" style=\"--columns:{}\">", i + 1,
                             c.results.size() + 1);
         const auto one = [&](const Pictures& shown, const std::string& name) {
-            html += fmt::format("<figure><img alt=\"{0}, part {1}\" src=\"{2}\"><figcaption>{0}</figcaption></figure>",
-                                escaped(name), i + 1,
-                                pictureUri(cropped(shown, squares[i]), squares[i].size, squares[i].size));
+            html += fmt::format(
+                "<figure><img alt=\"{0}, part {1}\" "
+                "src=\"{2}\"><figcaption>{0}</figcaption></figure>",
+                escaped(name), i + 1,
+                pictureUri(cropped(shown, squares[i]), squares[i].size, squares[i].size));
         };
         one(c.reference.shown, "reference");
         for (const auto& r : c.results) one(r.shown, r.contender.label);
@@ -184,11 +202,10 @@ std::string insets(const Comparison& c) {
 
 std::string charts(const Comparison& c) {
     std::vector<Series> scatter;
-    for (const auto& r : c.results)
-        scatter.push_back({r.contender.label, {r.ms}, {r.error.rmse}});
+    for (const auto& r : c.results) scatter.push_back({r.contender.label, {r.ms}, {r.error.rmse}});
     std::string html = "<h2>Error against time</h2><div class=\"charts\">";
-    html += chart(scatter, {"Error against time, with the Pareto front", "ms of shadows", "RMSE of visibility",
-                            true, true, true});
+    html += chart(scatter, {"Error against time, with the Pareto front", "ms of shadows",
+                            "RMSE of visibility", true, true, true});
     if (c.options.frames.size() > 1) {
         std::vector<Series> errors, flicker;
         for (const auto& r : c.results) {
@@ -206,7 +223,8 @@ std::string charts(const Comparison& c) {
             flicker.push_back(change);
         }
         html += chart(errors, {"Error over time", "frame", "RMSE of visibility"});
-        html += chart(flicker, {"Flicker on resting receivers", "frame", "mean change of visibility"});
+        html +=
+            chart(flicker, {"Flicker on resting receivers", "frame", "mean change of visibility"});
     }
     return html + "</div>";
 }
@@ -236,8 +254,10 @@ std::string sweep(const Comparison& c) {
 }
 
 std::string details(const Comparison& c) {
-    std::string html = "<h2>What made this page</h2><div class=\"scroll\"><table><thead><tr><th>technique</th><th>points</th>"
-                       "<th>triangles<br>a map</th><th>device<br>MB</th><th>files</th></tr></thead><tbody>";
+    std::string html =
+        "<h2>What made this page</h2><div "
+        "class=\"scroll\"><table><thead><tr><th>technique</th><th>points</th>"
+        "<th>triangles<br>a map</th><th>device<br>MB</th><th>files</th></tr></thead><tbody>";
     for (const auto& r : c.results) {
         std::string files;
         for (std::size_t i = 0; i < r.files.size() && i < 2; ++i)
@@ -260,8 +280,10 @@ std::string details(const Comparison& c) {
     }
     for (const auto& warning : c.warnings)
         html += fmt::format("<p class=\"facts\">Note: {}</p>", escaped(warning));
-    return html + "<p class=\"facts\">All figures are in results.json beside this page. FLIP: Andersson et al. 2020, 67 "
-                  "pixels per degree.</p>";
+    return html +
+           "<p class=\"facts\">All figures are in results.json beside this page. FLIP: Andersson "
+           "et al. 2020, 67 "
+           "pixels per degree.</p>";
 }
 
 void writeText(const std::filesystem::path& path, const std::string& text) {
@@ -275,10 +297,13 @@ void writeText(const std::filesystem::path& path, const std::string& text) {
 std::string reportPage(const Comparison& c) {
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>penumbra: soft shadows compared</title>"
-        "<link rel=\"icon\" href=\"data:,\"><style>{}</style></head><body>\n{}{}{}{}{}{}{}\n<script>{}</script></body></html>\n",
-        kPageStyle, heading(c), summary(c) + stageTable(c), charts(c), sweep(c), pictures(c), insets(c), details(c),
-        kPageScript);
+        "content=\"width=device-width, initial-scale=1\"><title>penumbra: soft shadows "
+        "compared</title>"
+        "<link rel=\"icon\" "
+        "href=\"data:,\"><style>{}</style></head><body>\n{}{}{}{}{}{}{}\n<script>{}</script></"
+        "body></html>\n",
+        kPageStyle, heading(c), summary(c) + stageTable(c), charts(c), sweep(c), pictures(c),
+        insets(c), details(c), kPageScript);
 }
 
 void writeReport(const Comparison& comparison) {

@@ -108,8 +108,8 @@ std::string pictureUri(const std::vector<std::uint8_t>& rgb, int width, int heig
 std::vector<std::uint8_t> errorColours(const Pictures& truth, const Pictures& frame, double full) {
     std::vector<std::uint8_t> rgb;
     for (std::size_t i = 0; i < truth.visibility.size(); ++i) {
-        const double error = static_cast<double>(frame.visibility[i]) -
-                             static_cast<double>(truth.visibility[i]);
+        const double error =
+            static_cast<double>(frame.visibility[i]) - static_cast<double>(truth.visibility[i]);
         const double strength = std::min(std::sqrt(std::abs(error) / full), 1.0);
         if (!frame.mask.empty() && !frame.mask[i])
             append(rgb, kLeftOut);
@@ -142,7 +142,8 @@ std::string flipGradient() {
 
 std::vector<Inset> findInsets(const Comparison& comparison, int count) {
     const auto& truth = comparison.reference.shown;
-    const int size = std::min({std::max(comparison.width / 12, 24), comparison.width, comparison.height});
+    const int size =
+        std::min({std::max(comparison.width / 12, 24), comparison.width, comparison.height});
     std::vector<std::pair<double, Inset>> scored;
     for (int y = 0; y + size <= truth.height; y += std::max(size / 3, 1))
         for (int x = 0; x + size <= truth.width; x += std::max(size / 3, 1)) {
@@ -162,9 +163,10 @@ std::vector<Inset> findInsets(const Comparison& comparison, int count) {
     std::vector<Inset> chosen;
     for (const auto& [score, square] : scored) {
         if (static_cast<int>(chosen.size()) == count || score <= 0) break;
-        const bool apart = std::all_of(chosen.begin(), chosen.end(), [&, s = square](const Inset& c) {
-            return std::abs(c.x - s.x) >= s.size || std::abs(c.y - s.y) >= s.size;
-        });
+        const bool apart =
+            std::all_of(chosen.begin(), chosen.end(), [&, s = square](const Inset& c) {
+                return std::abs(c.x - s.x) >= s.size || std::abs(c.y - s.y) >= s.size;
+            });
         if (apart) chosen.push_back(square);
     }
     return chosen;
@@ -173,7 +175,8 @@ std::vector<Inset> findInsets(const Comparison& comparison, int count) {
 std::vector<std::uint8_t> cropped(const Pictures& frame, const Inset& inset) {
     std::vector<std::uint8_t> rgb;
     for (int y = inset.y; y < inset.y + inset.size; ++y) {
-        const auto begin = frame.frame.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * frame.width + inset.x);
+        const auto begin =
+            frame.frame.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * frame.width + inset.x);
         rgb.insert(rgb.end(), begin, begin + 3 * static_cast<std::ptrdiff_t>(inset.size));
     }
     return rgb;

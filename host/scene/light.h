@@ -49,7 +49,8 @@ struct AreaLight {
     double innerConeRad = 0, outerConeRad = 0;  ///< outer 0: no cone
     double fovRad = 0, nearMetres = 0;          ///< 0: fitted
     std::vector<glm::dvec2> samples;            ///< metres along axisX, axisY
-    /// Where set, rays go to random points of their own in each pixel, as many as there are samples.
+    /// Where set, rays go to random points of their own in each pixel, as many as there are
+    /// samples.
     std::optional<std::uint32_t> randomSeed;
     bool isPoint() const { return width <= 0 && height <= 0; }
 };

@@ -95,9 +95,10 @@ Pattern parsePattern(const std::string& text) {
     if (text == "jittered") return Pattern::jittered;
     if (text == "random") return Pattern::random;
     throw Error(
-        fmt::format("--light-pattern '{}' is unknown; allowed: hammersley, poisson, grid, jittered, "
-                    "random",
-                    text),
+        fmt::format(
+            "--light-pattern '{}' is unknown; allowed: hammersley, poisson, grid, jittered, "
+            "random",
+            text),
         ExitCode::usage);
 }
 

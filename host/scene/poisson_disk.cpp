@@ -57,8 +57,8 @@ std::vector<glm::dvec2> fill(double distance, bool disk, std::uint32_t seed) {
     std::vector<int> active{0};
     grid.add(points[0], 0);
     while (!active.empty()) {
-        const auto pick = std::min(static_cast<std::size_t>(uniform(state) * active.size()),
-                                   active.size() - 1);
+        const auto pick =
+            std::min(static_cast<std::size_t>(uniform(state) * active.size()), active.size() - 1);
         const glm::dvec2 from = points[static_cast<std::size_t>(active[pick])];
         bool found = false;
         for (int i = 0; i < kCandidates && !found; ++i) {

@@ -13,8 +13,8 @@ class DepthWarp {
   public:
     DepthWarp(const runtime::Program& multiView, Parallelism parallelism, int viewsPerPass);
 
-    /// Enqueues filling the batch's maps: maps32 where needsWideMaps(). `automatic` is owned on CPUs,
-    /// full elsewhere.
+    /// Enqueues filling the batch's maps: maps32 where needsWideMaps(). `automatic` is owned on
+    /// CPUs, full elsewhere.
     void run(const PointBuffers& points, const LightView& view, const Buffer<float>& samples,
              const MapBatch& batch, const Buffer<shared::MultiViewCounters>& counters);
     /// True if only 32-bit maps can be filled.

@@ -20,7 +20,8 @@ struct EssmSettings : MapSettings {
         row.number("exponent", exponent, 1.0F, 86.0F, "",
                    "c of the warp e^(c d): larger leaks less and filters less smoothly");
         row.number("leak", leak, 0.0F, 0.9F, "", "visibility up to this becomes 0, against leaks");
-        row.number("leastRadius", leastRadius, 0.0F, 64.0F, "texels", "least half size of a filter");
+        row.number("leastRadius", leastRadius, 0.0F, 64.0F, "texels",
+                   "least half size of a filter");
         row.choice("cull", cull, {"auto", "back", "front", "none"},
                    "faces that are not drawn; auto: back faces of edge-closed meshes");
         pixelRows(row);
@@ -61,7 +62,8 @@ class EssmSource : public MapSource {
 
 class EssmReader : public MapReader {
   public:
-    EssmReader(const runtime::Program& essm, const EssmSettings& settings, const EssmSource& source);
+    EssmReader(const runtime::Program& essm, const EssmSettings& settings,
+               const EssmSource& source);
     int weight() const override { return 65535; }  // ESSM_WEIGHT
     void read(const LightView& view, const MapBatch& batch, ReceiverImage& receivers) override;
 

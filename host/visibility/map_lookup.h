@@ -15,6 +15,7 @@ struct LookupSettings {
 class MapLookup : public MapReader {
   public:
     MapLookup(const runtime::Program& multiView, const LookupSettings& settings);
+    bool testsSamples() const override { return true; }
     int weight() const override;
     void read(const LightView& view, const MapBatch& batch, ReceiverImage& receivers) override;
 

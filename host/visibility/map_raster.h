@@ -20,8 +20,8 @@ struct MapRasterSettings {
     Coverage coverage = Coverage::standard;
     Cull cull = Cull::automatic;
     bool castersOnly = true;  ///< false: everything that receives shadows
-    float biasConstant = 0;  ///< of depth (near / z), pushing it away from the light
-    float biasSlope = 0;     ///< times the larger of the depth's steps per texel
+    float biasConstant = 0;   ///< of depth (near / z), pushing it away from the light
+    float biasSlope = 0;      ///< times the larger of the depth's steps per texel
 };
 
 /// The source of depth maps of mvr and mvss, and of the one map of pcss and essm. Kernels:
@@ -69,9 +69,9 @@ class MapRaster : public MapSource {
         share_;
     Owned<U32> owned32_;
     Owned<std::uint16_t> owned16_;
-    Buffer<float> projected_;       ///< [3, vertex]
-    Buffer<float> triangles_;       ///< [MAP_TRIANGLE_PLANES, triangle]
-    Buffer<U32> flags_, specials_;  ///< [triangle]
+    Buffer<float> projected_;                              ///< [3, vertex]
+    Buffer<float> triangles_;                              ///< [MAP_TRIANGLE_PLANES, triangle]
+    Buffer<U32> flags_, specials_;                         ///< [triangle]
     std::vector<Buffer<shared::MapRasterCounts>> counts_;  ///< [light of the frame]
     std::size_t lightsBegun_ = 0;
     std::uint64_t drawnTriangles_ = 0;

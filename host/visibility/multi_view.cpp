@@ -21,6 +21,7 @@ MultiView::MultiView(const runtime::Program& multiView, const MapSettings& setti
       settings_(settings),
       stride_(shared::gbufferStride(width * height)),
       receivers_(multiView, "receivers"),
+      occupancy_(multiView),
       pack_(multiView, "map_pack"),
       average_(multiView, "map_average"),
       upsample_(multiView, "map_upsample") {
@@ -98,8 +99,8 @@ void MultiView::pack(const LightView& view, const MapBatch& batch) {
 
 void MultiView::run(const Inputs& inputs, const scene::AreaLight& views, MapSource& source,
                     MapReader& reader, Visibility& visibility) {
-    LightView view = fitLightView(views, inputs.casters, inputs.centre, settings_.resolution,
-                                  source.density());
+    LightView view =
+        fitLightView(views, inputs.casters, inputs.centre, settings_.resolution, source.density());
     view.params.depthBits = settings_.depthBits;
     if (!view.complete && settings_.outside == Outside::lit)
         warnings_.push_back(
@@ -126,6 +127,8 @@ void MultiView::run(const Inputs& inputs, const scene::AreaLight& views, MapSour
     receivers_.launch({pixels}, {64}, image_, view.params, inputs.gbuffer.planes,
                       receiverImage_.planes, visibility.state, receiverImage_.hidden,
                       light.counters);
+    if (settings_.skipLit && reader.testsSamples())
+        occupancy_.skip(inputs.mesh, view, image_.receiverStride, receiverImage_.planes);
 
     const bool wide = source.needsWideMaps();
     const int batch = batchSize(view, wide);

@@ -9,6 +9,7 @@
 
 #include "host/visibility/light_view.h"
 #include "host/visibility/multi_view_settings.h"
+#include "host/visibility/occupancy.h"
 #include "host/visibility/raytrace.h"
 #include "host/visibility/technique.h"
 
@@ -40,17 +41,20 @@ class MapSource {
 /// The pixels that are tested, in the central view of the light; layouts in
 /// kernels/shared/multi_view.h.
 struct ReceiverImage {
-    int width = 0;                            ///< receivers in a row
-    int stride = 0;                           ///< floats between planes
-    Buffer<float> planes;                     ///< [RECEIVER_PLANES, stride]
-    Buffer<std::uint32_t> hidden;             ///< [stride] tests that failed
-    const Buffer<float>* samples = nullptr;   ///< [view, 2] kx, ky
+    int width = 0;                           ///< receivers in a row
+    int stride = 0;                          ///< floats between planes
+    Buffer<float> planes;                    ///< [RECEIVER_PLANES, stride]
+    Buffer<std::uint32_t> hidden;            ///< [stride] tests that failed
+    const Buffer<float>* samples = nullptr;  ///< [view, 2] kx, ky
 };
 
 /// Tests receivers against maps.
 class MapReader {
   public:
     virtual ~MapReader() = default;
+    /// True if it looks for nothing but what hides a sample: receivers that no caster can shadow
+    /// may be left out.
+    virtual bool testsSamples() const { return false; }
     /// Tests of a receiver in each map: visibility is 1 - hidden / (maps x weight).
     virtual int weight() const = 0;
     /// Enqueues adding the failed tests of the batch's maps to receivers.hidden.
@@ -103,6 +107,7 @@ class MultiView {
     runtime::Kernel<shared::ReceiverParams, shared::MultiViewParams, Buffer<float>, Buffer<float>,
                     Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<shared::MultiViewCounters>>
         receivers_;
+    Occupancy occupancy_;
     runtime::Kernel<std::uint32_t, Buffer<std::uint32_t>, Buffer<std::uint16_t>> pack_;
     runtime::Kernel<int, int, int, Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<float>>
         average_;

@@ -15,6 +15,7 @@ struct MapSettings {
     int viewsPerBatch = 0;
     bool halfResolution = false;
     Outside outside = Outside::raytrace;
+    bool skipLit = true;
 
     template <typename Row>
     void pixelRows(Row& row) {
@@ -31,6 +32,8 @@ struct MapSettings {
         row.number("depthBits", depthBits, 16, 32, "bits", "of a depth map's texel: 16 or 32");
         row.number("viewsPerBatch", viewsPerBatch, 0, 4096, "views",
                    "maps held at a time; 0: by device and memory; never changes the image", false);
+        row.flag("skipLit", skipLit,
+                 "leave out receivers that no caster can shadow; never changes the image", false);
     }
 };
 

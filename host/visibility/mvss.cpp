@@ -29,9 +29,9 @@ std::uint64_t Mvss::plannedBytes(const TechniqueContext& context) {
 
 void Mvss::run(const Inputs& inputs, Visibility& visibility) {
     const auto light = mvssLight(inputs.light, settings_.maps, settings_.seed);
-    multiView_.run({inputs.mesh, inputs.gbuffer, light, inputs.casters, inputs.centre,
-                    inputs.depthMaps},
-                   light, source_, reader_, visibility);
+    multiView_.run(
+        {inputs.mesh, inputs.gbuffer, light, inputs.casters, inputs.centre, inputs.depthMaps},
+        light, source_, reader_, visibility);
 }
 
 Counts Mvss::takeCounts() {

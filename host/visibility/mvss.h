@@ -24,8 +24,7 @@ struct MvssSettings : MapSettings {
                    "taken from depths when maps are written");
         row.number("slopeBias", slopeBias, 0.0F, 64.0F, "",
                    "the same, times a surface's larger step of depth per texel");
-        row.choice("form", form, {"full", "textbook"},
-                   "as mvr.form; never changes the image");
+        row.choice("form", form, {"full", "textbook"}, "as mvr.form; never changes the image");
         row.choice("cull", cull, {"auto", "back", "front", "none"},
                    "faces that are not drawn; auto: back faces of edge-closed meshes");
         MapSettings::rows(row);

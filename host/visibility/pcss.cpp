@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kGoldenAngle = 2.39996322972865332;
-constexpr float kLeastTexels = 0.75F;  // of the filter: the edge of a contact shadow is a texel wide
+constexpr float kLeastTexels =
+    0.75F;  // of the filter: the edge of a contact shadow is a texel wide
 
 /// Points of the unit disk, evenly spread: Vogel's spiral or Bridson's Poisson disk.
 std::vector<float> diskPattern(DiskPattern pattern, int count) {
@@ -31,7 +32,8 @@ std::vector<float> diskPattern(DiskPattern pattern, int count) {
     return points;
 }
 
-/// A rotation for each pixel of a 16 x 16 tile, neighbours far apart: Jimenez' interleaved gradient.
+/// A rotation for each pixel of a 16 x 16 tile, neighbours far apart: Jimenez' interleaved
+/// gradient.
 std::vector<float> tileRotations(bool rotate) {
     std::vector<float> rotations;
     for (int i = 0; i < PCSS_ROTATIONS; ++i) {

@@ -21,8 +21,7 @@ struct PcssSettings : MapSettings, BiasSettings {
         row.number("blockerTaps", blockerTaps, 1, 1024, "taps", "of the blocker search");
         row.number("filterTaps", filterTaps, 1, 1024, "taps", "of the percentage-closer filter");
         row.choice("pattern", pattern, {"vogel", "poisson"}, "of the taps in their disk");
-        row.flag("rotate", rotate,
-                 "turn the pattern from pixel to pixel: noise in place of bands");
+        row.flag("rotate", rotate, "turn the pattern from pixel to pixel: noise in place of bands");
         row.flag("planeBias", planeBias,
                  "compare taps with the receiver's plane, not with its depth");
         row.choice("cull", cull, {"auto", "back", "front", "none"},

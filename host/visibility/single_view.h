@@ -5,7 +5,8 @@
 
 namespace penumbra::visibility {
 
-/// The light with its centre as its only sample: its size still says which receivers its views hold.
+/// The light with its centre as its only sample: its size still says which receivers its views
+/// hold.
 inline scene::AreaLight centralView(const scene::AreaLight& light) {
     scene::AreaLight central = light;
     central.samples = {glm::dvec2(0)};

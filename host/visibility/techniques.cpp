@@ -30,12 +30,13 @@ const std::vector<TechniqueEntry>& techniques() {
          "triangles make "
          "many points; partial opacity blocks a share of the samples",
          describeSettings<VwssSettings>, Vwss::plannedBytes, make<Vwss>},
-        {"mvr",
-         "multi-view rasterisation: every triangle into a depth map per sample", "[VWSS] 2.1, 4",
+        {"mvr", "multi-view rasterisation: every triangle into a depth map per sample",
+         "[VWSS] 2.1, 4",
          "cost grows with triangles times samples; aliasing of the maps' texels; partial opacity "
          "blocks a share of the samples",
          describeSettings<MvrSettings>, Mvr::plannedBytes, make<Mvr>},
-        {"mvss", "as NVIDIA's sample: a few small maps at Poisson-disk samples, one bilinear tap each",
+        {"mvss",
+         "as NVIDIA's sample: a few small maps at Poisson-disk samples, one bilinear tap each",
          "[MVSS]",
          "bands of 28 edges in wide penumbrae; acne or detached shadows where the fixed bias does "
          "not suit the scene",

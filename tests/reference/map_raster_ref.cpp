@@ -36,13 +36,13 @@ std::vector<MapTexel> castMap(const scene::AreaLight& light, const glm::dvec2& s
                 for (int i = 0; i < 3; ++i) {
                     const glm::dvec3 p = corners[t + static_cast<std::size_t>(i)] - eye;
                     const double z = glm::dot(p, light.axisZ);
-                    flat[i] = focal / z * glm::dvec2(glm::dot(p, light.axisX),
-                                                     glm::dot(p, light.axisY)) +
-                              0.5 * size;
+                    flat[i] =
+                        focal / z * glm::dvec2(glm::dot(p, light.axisX), glm::dot(p, light.axisY)) +
+                        0.5 * size;
                 }
                 for (int i = 0; i < 3; ++i)
-                    texel.margin = std::min(
-                        texel.margin, segmentDistance(pixel, flat[i], flat[(i + 1) % 3]));
+                    texel.margin =
+                        std::min(texel.margin, segmentDistance(pixel, flat[i], flat[(i + 1) % 3]));
                 // The ray meets the plane inside of all three edges
                 const glm::dvec3 normal = glm::cross(b - a, c - a);
                 const double facing = glm::dot(normal, direction);

@@ -97,8 +97,9 @@ std::vector<std::vector<float>> PointsRun::warpedMaps(visibility::Parallelism fo
         for (std::size_t i = v * stride; i < v * stride + texels; ++i)
             // Where only 32-bit texels can be filled, they hold 16-bit depths to be packed
             result[v].push_back(
-                bits == 32 ? std::bit_cast<float>(words[i])
-                           : static_cast<float>(warp.needsWideMaps() ? words[i] : shorts[i]) / 65535.0F);
+                bits == 32
+                    ? std::bit_cast<float>(words[i])
+                    : static_cast<float>(warp.needsWideMaps() ? words[i] : shorts[i]) / 65535.0F);
     return result;
 }
 

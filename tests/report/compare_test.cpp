@@ -201,7 +201,9 @@ TEST(CompareTest, WrongOptionsAreNamed) {
         }
         return std::string();
     };
-    EXPECT_NE(messageOf([](auto& o) { o.techniques = {"vwss", "vwss"}; }).find("listed twice"),
+    EXPECT_NE(messageOf([](auto& o) {
+                  o.techniques = {"vwss", "vwss"};
+              }).find("listed twice"),
               std::string::npos);
     EXPECT_NE(messageOf([](auto& o) { o.techniques = {"vsm"}; }).find("vsm"), std::string::npos);
     EXPECT_NE(messageOf([](auto& o) { o.techniques = {"vwss:pcf"}; }).find("setting=value"),

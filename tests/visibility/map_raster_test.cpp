@@ -97,8 +97,8 @@ bool sameMaps(const ShadowRun& a, const ShadowRun& b) {
 }
 
 std::size_t covered(const ShadowRun& run) {
-    return static_cast<std::size_t>(
-        std::count_if(run.maps.depths.begin(), run.maps.depths.end(), [](float d) { return d > 0; }));
+    return static_cast<std::size_t>(std::count_if(run.maps.depths.begin(), run.maps.depths.end(),
+                                                  [](float d) { return d > 0; }));
 }
 
 TEST(MapRasterTest, EveryFormGivesTheSameMapsToTheBit) {
@@ -128,7 +128,8 @@ TEST(MapRasterTest, MapsHoldWhatRaysThroughTexelCentresMeet) {
         auto setup = mapsSetup();
         setup.settings["mvr.cull"] = "none";
         const auto run = runShadows(soupScene(corners), setup);
-        const auto view = visibility::fitLightView(run.light, run.bounds, run.bounds.centre(), 96, 1);
+        const auto view =
+            visibility::fitLightView(run.light, run.bounds, run.bounds.centre(), 96, 1);
         std::size_t compared = 0, wrong = 0;
         for (std::size_t sample = 0; sample < run.light.samples.size(); ++sample) {
             const auto twin = castMap(run.light, run.light.samples[sample], corners,
@@ -213,7 +214,9 @@ TEST(MapRasterTest, ShadowsOfWarpedPointsLieBetweenBothCoverages) {
 TEST(MapRasterTest, BiasPushesWrittenDepthsAwayFromTheLight) {
     auto setup = mapsSetup();
     setup.technique = "mvss";
-    setup.settings = {{"mvss.resolution", "64"}, {"mvss.maps", "5"}, {"mvss.constantBias", "0"},
+    setup.settings = {{"mvss.resolution", "64"},
+                      {"mvss.maps", "5"},
+                      {"mvss.constantBias", "0"},
                       {"mvss.slopeBias", "0"}};
     const auto plain = runShadows(mixedScene(), setup);
     setup.settings["mvss.constantBias"] = "0.01";
