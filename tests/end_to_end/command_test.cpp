@@ -317,6 +317,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadUse{"render -o OUT/a.png --light 'rect:radiance=-3'", 2, "at least 0"},
                     BadUse{"render -o OUT/a.png --light-samples 8x8 --light-pattern poisson", 2,
                            "allowed: grid"},
+                    BadUse{"render -o OUT/a.png --technique mvr --light-pattern random", 2,
+                           "only technique raytrace"},
                     BadUse{"render -o OUT/a.png --config /etc", 1, "cannot be read"},
                     BadUse{"render -o OUT/a.png --stats /absent/s.json", 1, "--stats"},
                     BadUse{"render", 2, "--output"},

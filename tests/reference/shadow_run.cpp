@@ -79,9 +79,11 @@ ShadowRun runShadows(const scene::Scene& original, const ShadowSetup& setup) {
     run.height = setup.height;
     run.bounds = scene::clipBounds(scene, clips);
     run.pose = scene::poseAt(scene, clips, setup.seconds);
-    run.light =
-        scene::lightsAt(scene, run.pose, run.bounds, scene::parseSampleCount(setup.samples, {}))
-            .at(0);
+    scene::SampleChoice samples;
+    samples.pattern = setup.pattern;
+    samples.seed = setup.seed;
+    samples = scene::parseSampleCount(setup.samples, samples);
+    run.light = scene::lightsAt(scene, run.pose, run.bounds, samples).at(0);
     scene::CameraChoice choice;
     if (setup.placedCamera) {
         choice.eye = setup.eye;

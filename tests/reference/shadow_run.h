@@ -18,7 +18,9 @@ struct ShadowSetup {
     std::string technique = "vwss";
     SettingValues settings;      ///< "vwss.resolution" -> "256"
     std::string samples = "64";  ///< as --light-samples
-    std::string light;           ///< as --light; empty: the scene's first
+    scene::Pattern pattern = scene::Pattern::hammersley;
+    std::uint32_t seed = 0;  ///< as --seed
+    std::string light;       ///< as --light; empty: the scene's first
     glm::dvec3 eye{0, 3, 6}, target{0};
     bool placedCamera = true;  ///< false: the scene's own camera
     double fovDegrees = 40;

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// A scene small enough for Oclgrind.
+#pragma once
+#include "host/scene/scene.h"
+
+namespace penumbra::tests {
+
+/// A box over a floor with every kind of material: plain, masked by a texture, blended,
+/// normal-mapped; lit by the square light "key".
+scene::Scene tinyScene();
+
+}  // namespace penumbra::tests
