@@ -9,6 +9,7 @@
 #include "host/scene/builtin.h"
 #include "host/scene/digest.h"
 #include "host/scene/gltf_loader.h"
+#include "kernels/shared/multi_view.h"
 #include "runtime/digest.h"
 #include "runtime/error.h"
 #include "runtime/memory_plan.h"
@@ -143,7 +144,11 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
                  "--size {}x{} is outside of 1x1 to {}x{} pixels", options.width, options.height,
                  RASTER_MAX_SIZE, RASTER_MAX_SIZE);
     visibility::findTechnique(options.technique);
-    sampleChoice(options, 0);
+    const auto pattern = sampleChoice(options, 0).pattern;
+    requireUsage(pattern != scene::Pattern::random || options.technique == "raytrace",
+                 "--light-pattern random gives each pixel samples of its own, which only technique "
+                 "raytrace can use; allowed for {}: hammersley, poisson, grid, jittered",
+                 options.technique);
     width_ = options.width * options.supersample;
     height_ = options.height * options.supersample;
     clips_ = scene::chooseAnimations(scene_, options.animation);
@@ -241,6 +246,7 @@ void Pipeline::enqueue(const geometry::Mesh& mesh, bool keep) {
     technique_->prepare(mesh, bounds_, bounds_.centre());
     keptVisibility_.clear();
     keptMaps_.clear();
+    keptStates_.clear();
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         visibility::DepthMaps maps;
         technique_->run({mesh, gbuffer, lights_[i], bounds_, bounds_.centre(),
@@ -248,6 +254,7 @@ void Pipeline::enqueue(const geometry::Mesh& mesh, bool keep) {
                         visibility_);
         temporal_->run(gbuffer, i, visibility_);
         shade_->add(gbuffer, lights_[i], visibility_, camera_, bounds_.centre());
+        if (keep && keepStates_) keptStates_.push_back(visibility_.state.download());
         if (keep && aovs_.visibility) keptVisibility_.push_back(visibility_.planes.download());
         if (keep && aovs_.depthMaps) keptMaps_.push_back(std::move(maps));
     }
@@ -323,6 +330,19 @@ Frame Pipeline::collect(int number) {
     frame.header = header();
     frame.fingerprint = fingerprint_;
     return frame;
+}
+
+std::vector<bool> Pipeline::testedPixels() const {
+    const int n = options_.supersample;
+    std::vector<bool> tested(static_cast<std::size_t>(options_.width) *
+                                 static_cast<std::size_t>(options_.height),
+                             false);
+    for (const auto& states : keptStates_)
+        for (int y = 0; y < height_; ++y)
+            for (int x = 0; x < width_; ++x)
+                if (states[static_cast<std::size_t>(y * width_ + x)] == STATE_TESTED)
+                    tested[static_cast<std::size_t>(y / n * options_.width + x / n)] = true;
+    return tested;
 }
 
 void Pipeline::warnOnce(const std::string& warning) {

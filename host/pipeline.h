@@ -43,6 +43,11 @@ class Pipeline {
     const std::string& fingerprint() const { return fingerprint_; }
     std::string statsJson() const;
     const scene::Bounds& bounds() const { return bounds_; }
+    /// Keeps which pixels were tested (waits for the device in each frame).
+    void keepStates(bool keep) { keepStates_ = keep; }
+    /// Pixels [height, width] of the last frame that some light can reach: neither background nor
+    /// facing away. Needs keepStates.
+    std::vector<bool> testedPixels() const;
 
   private:
     double secondsOf(int number) const;
@@ -77,6 +82,8 @@ class Pipeline {
     visibility::Visibility visibility_;
     std::vector<std::vector<float>> keptVisibility_;  ///< per light, when asked for
     std::vector<visibility::DepthMaps> keptMaps_;
+    bool keepStates_ = false;
+    std::vector<std::vector<std::uint32_t>> keptStates_;  ///< per light, when asked for
     std::vector<scene::AreaLight> lights_;  ///< of the frame in flight
     scene::CameraFrame camera_;
     double exposure_ = 1;

@@ -26,17 +26,32 @@ const runtime::Program& program(const std::string& name) {
     return *entry;
 }
 
-double deviceMs(const std::function<void()>& work) {
+namespace {
+
+/// Device time of what `work` enqueues in one stage; empty: in all.
+double stageMs(const std::string& name, const std::function<void()>& work) {
     device().profiler().collect();
     work();
     double sum = 0;
-    for (const auto& stage : device().profiler().collect()) sum += stage.deviceMs;
+    for (const auto& stage : device().profiler().collect())
+        if (name.empty() || stage.name == name) sum += stage.deviceMs;
     return sum;
 }
 
+}  // namespace
+
+double deviceMs(const std::function<void()>& work) {
+    return stageMs("", work);
+}
+
 void measure(benchmark::State& state, const std::function<void()>& work) {
-    deviceMs(work);
-    for (auto _ : state) state.SetIterationTime(1e-3 * deviceMs(work));
+    measureStage(state, "", work);
+}
+
+void measureStage(benchmark::State& state, const std::string& stage,
+                  const std::function<void()>& work) {
+    stageMs(stage, work);
+    for (auto _ : state) state.SetIterationTime(1e-3 * stageMs(stage, work));
     state.SetLabel(device().info().name);
 }
 

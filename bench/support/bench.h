@@ -27,6 +27,10 @@ double deviceMs(const std::function<void()>& work);
 /// before.
 void measure(benchmark::State& state, const std::function<void()>& work);
 
+/// The same with the device time of the profiler's stage of that name alone.
+void measureStage(benchmark::State& state, const std::string& stage,
+                  const std::function<void()>& work);
+
 /// The built-in scene, posed on the device.
 struct PosedScene {
     scene::Scene scene;

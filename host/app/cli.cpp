@@ -16,6 +16,7 @@ namespace {
 /// Arguments of all commands, filled by CLI11.
 struct Arguments {
     RenderArguments render;
+    CompareArguments compare;
     DiffArguments diff;
     std::string size = "1280x720", scene, device, config;
     std::vector<std::string> settings;
@@ -40,10 +41,16 @@ void parseSettings(const std::vector<std::string>& texts, RenderOptions& options
         const auto dot = text.find('.');
         requireUsage(equals != std::string::npos && dot < equals,
                      "--set '{}' is not technique.setting=value; see `penumbra techniques`", text);
-        const auto technique = text.substr(0, dot);
-        requireUsage(technique == options.technique, "--set '{}' is for {}, and --technique is {}",
-                     text, technique, options.technique);
         options.settings[text.substr(0, equals)] = text.substr(equals + 1);
+    }
+}
+
+void requireOwnSettings(const RenderOptions& options) {
+    for (const auto& [key, value] : options.settings) {
+        const auto technique = key.substr(0, key.find('.'));
+        requireUsage(technique == options.technique,
+                     "--set '{}={}' is for {}, and --technique is {}", key, value, technique,
+                     options.technique);
     }
 }
 
@@ -79,7 +86,8 @@ void addLights(CLI::App& render, Arguments& a) {
         .add_option("--light-samples", o.lightSamples,
                     "samples of each light: N, or MxN for a grid")
         ->capture_default_str();
-    render.add_option("--light-pattern", o.lightPattern, "hammersley, poisson, grid, jittered")
+    render.add_option("--light-pattern", o.lightPattern, "hammersley, poisson, grid, jittered; raytrace: also random, anew in each "
+                    "pixel")
         ->capture_default_str();
     render
         .add_option("--seed", o.seed, "of the pattern: a number, or frame for another each frame")
@@ -92,49 +100,86 @@ void addOutput(CLI::App& render, Arguments& a) {
     render.add_option("-o,--output", r.output, "file: .exr or .png; #### is the frame number")
         ->required();
     render.add_option("--frames", r.frames, "1,3,5..10 or 0..119 or all")->capture_default_str();
-    render.add_option("--fps", o.fps, "frames per second")->capture_default_str();
-    render.add_option("--size", a.size, "pixels")->capture_default_str();
-    render.add_option("--supersample", o.supersample, "samples along each side of a pixel, 1 to 8")
-        ->capture_default_str();
-    render
-        .add_option("--exposure", o.exposure,
-                    "of PNG files: auto (white at the scene's centre is 0.8) or stops")
-        ->capture_default_str();
     render
         .add_option("--aov", o.aovs,
                     "extra channels of EXR files: all, visibility, depth, normal, position, "
                     "albedo, id, depth-maps")
         ->allow_extra_args(false)
         ->delimiter(',');
-    render.add_option("--temporal", o.temporal, "frames that visibility is averaged over")
-        ->capture_default_str();
     render.add_flag("--resume", r.resume, "skip whole frames of the same fingerprint");
     render.add_option("--stats", r.stats, "write measurements as JSON");
 }
 
-CLI::App* addRender(CLI::App& app, Arguments& a) {
-    auto& render = *app.add_subcommand("render", "Render frames");
+/// What is rendered and on what, of render and compare alike.
+void addPicture(CLI::App& command, Arguments& a) {
     auto& o = a.render.options;
-    addScene(render, a);
-    addOutput(render, a);
-    render.add_option("--technique", o.technique, "see `penumbra techniques`")
+    addScene(command, a);
+    command.add_option("--fps", o.fps, "frames per second")->capture_default_str();
+    command.add_option("--size", a.size, "pixels")->capture_default_str();
+    command.add_option("--supersample", o.supersample, "samples along each side of a pixel, 1 to 8")
         ->capture_default_str();
-    addRepeated(render, "--set", a.settings, "technique.setting=value; repeatable");
-    addLights(render, a);
-    addCamera(render, a);
-    render.add_flag("--ground", o.ground, "put a floor under the scene");
-    render.add_option(
+    command
+        .add_option("--exposure", o.exposure,
+                    "of PNG files: auto (white at the scene's centre is 0.8) or stops")
+        ->capture_default_str();
+    command.add_option("--temporal", o.temporal, "frames that visibility is averaged over")
+        ->capture_default_str();
+    addRepeated(command, "--set", a.settings, "technique.setting=value; repeatable");
+    addLights(command, a);
+    addCamera(command, a);
+    command.add_flag("--ground", o.ground, "put a floor under the scene");
+    command.add_option(
         "--animation", o.animation,
         "name, index, all, or none; default (all): clip 0 and what moves other nodes");
-    render.add_option("--device", a.device,
-                      "cpu, gpu, an index, platform:device, or part of a name");
-    render.add_option("--memory", o.memoryMegabytes, "limit on device memory, MB");
-    render.add_flag("--no-cache", a.noCache, "compile kernels anew");
+    command.add_option("--device", a.device,
+                       "cpu, gpu, an index, platform:device, or part of a name");
+    command.add_option("--memory", o.memoryMegabytes, "limit on device memory, MB");
+    command.add_flag("--no-cache", a.noCache, "compile kernels anew");
+}
+
+CLI::App* addRender(CLI::App& app, Arguments& a) {
+    auto& render = *app.add_subcommand("render", "Render frames");
+    addPicture(render, a);
+    addOutput(render, a);
+    render.add_option("--technique", a.render.options.technique, "see `penumbra techniques`")
+        ->capture_default_str();
     render.add_flag("-q,--quiet", a.render.quiet, "only errors on stderr");
     render.add_flag("-v,--verbose", a.render.verbose,
                     "device, and a table of milliseconds per stage, on stderr");
     render.add_option("--config", a.config, "read options from a TOML file; the command line wins");
     return &render;
+}
+
+CLI::App* addCompare(CLI::App& app, Arguments& a) {
+    auto& compare = *app.add_subcommand(
+        "compare", "Render a scene with several techniques: a page with cost and error of each");
+    auto& c = a.compare;
+    addPicture(compare, a);
+    compare
+        .add_option("--techniques", c.techniques,
+                    "vwss,mvr:pcf=9:resolution=512,...; settings of a technique, and samples=, "
+                    "pattern=, seed=, temporal=, after colons")
+        ->required()
+        ->allow_extra_args(false)
+        ->delimiter(',');
+    compare
+        .add_option("--reference", c.reference,
+                    "a technique, or an EXR file of another renderer (#### is the frame)")
+        ->capture_default_str();
+    compare
+        .add_option("--reference-samples", c.referenceSamples,
+                    "light samples of a reference that is a technique")
+        ->capture_default_str();
+    compare.add_option("--report", c.report, "folder of the page, EXR files and results.json")
+        ->required();
+    compare.add_option("--frames", c.frames, "1,3,5..10 or 0..119")->capture_default_str();
+    compare.add_option("--repeats", c.repeats, "timings of a single frame; the median counts")
+        ->capture_default_str();
+    compare.add_option("--sweep", c.sweep,
+                       "light-samples=8,16,32 or a setting with values: error and time against it");
+    compare.add_flag("--json", c.json, "results.json on stdout");
+    compare.add_flag("-q,--quiet", c.quiet, "only errors on stderr");
+    return &compare;
 }
 
 CLI::App* addDiff(CLI::App& app, Arguments& a) {
@@ -146,6 +191,11 @@ CLI::App* addDiff(CLI::App& app, Arguments& a) {
     diff.add_option("--fail-rmse", a.diff.failRmse, "largest root mean square difference");
     diff.add_option("--fail-max", a.diff.failMax, "largest difference");
     diff.add_option("--fail-psnr", a.diff.failPsnr, "least peak signal-to-noise ratio, dB");
+    diff.add_option("--fail-ssim", a.diff.failSsim, "least structural similarity, 1 if equal");
+    diff.add_option("--fail-flip", a.diff.failFlip, "largest mean FLIP, 0 if equal, at most 1");
+    diff.add_option("--pixels-per-degree", a.diff.pixelsPerDegree,
+                    "of the screen that FLIP assumes, 1 to 1000")
+        ->capture_default_str();
     addRepeated(diff, "--fail-share", a.diff.failShares,
                 "STEP=SHARE: largest share of pixels beyond STEP/255; steps 1, 4, 16");
     diff.add_flag("--json", a.diff.json, "JSON on stdout");
@@ -202,7 +252,7 @@ std::vector<std::string> withConfig(const std::vector<std::string>& arguments,
     return all;
 }
 
-int runRenderWith(Arguments& a, bool hasFov) {
+void fillOptions(Arguments& a, bool hasFov) {
     auto& o = a.render.options;
     o.scene = a.scene;
     o.device = a.device;
@@ -212,12 +262,30 @@ int runRenderWith(Arguments& a, bool hasFov) {
     if (!a.eye.empty()) o.eye = a.eye;
     if (!a.target.empty()) o.target = a.target;
     if (hasFov) o.fovDegrees = a.fov;
-    return runRender(a.render);
+}
+
+int runCompareWith(Arguments& a, int argc, char** argv) {
+    for (const auto& [key, value] : a.render.options.settings) {
+        const auto technique = key.substr(0, key.find('.'));
+        requireUsage(std::any_of(a.compare.techniques.begin(), a.compare.techniques.end(),
+                                 [&](const auto& t) { return t.substr(0, t.find(':')) == technique; }),
+                     "--set '{}={}' is for {}, which --techniques does not list", key, value,
+                     technique);
+    }
+    a.compare.options = a.render.options;
+    a.compare.command = "penumbra";
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool plain = word.find_first_of(" ;'\"$&|<>()*?#") == std::string::npos;
+        a.compare.command += plain ? " " + word : " '" + word + "'";
+    }
+    return runCompare(a.compare);
 }
 
 /// Names a word that is no command, which CLI11 does not.
 void requireCommand(const std::string& word) {
-    const std::vector<std::string> commands{"render", "diff", "info", "devices", "techniques"};
+    const std::vector<std::string> commands{"render", "compare",    "diff",
+                                            "info",   "devices", "techniques"};
     requireUsage(!word.empty(), "no command is given; allowed: {}", fmt::join(commands, ", "));
     requireUsage(
         word[0] == '-' || std::find(commands.begin(), commands.end(), word) != commands.end(),
@@ -233,6 +301,7 @@ int runCommandLine(int argc, char** argv) {
     app.require_subcommand(1);
     Arguments a;
     const auto* render = addRender(app, a);
+    const auto* compare = addCompare(app, a);
     const auto* diff = addDiff(app, a);
     auto* info = app.add_subcommand("info", "What is in a scene, and what of it is used");
     addScene(*info, a);
@@ -258,7 +327,15 @@ int runCommandLine(int argc, char** argv) {
                         "--help",
                     ExitCode::usage);
     }
-    if (render->parsed()) return runRenderWith(a, render->count("--fov") > 0);
+    if (render->parsed()) {
+        fillOptions(a, render->count("--fov") > 0);
+        requireOwnSettings(a.render.options);
+        return runRender(a.render);
+    }
+    if (compare->parsed()) {
+        fillOptions(a, compare->count("--fov") > 0);
+        return runCompareWith(a, argc, argv);
+    }
     if (diff->parsed()) return runDiff(a.diff);
     if (info->parsed()) return runInfo(a.scene, a.json);
     if (devices->parsed()) return runDevices(a.device, a.json, a.verbose);

@@ -9,7 +9,8 @@
 namespace penumbra::app {
 namespace {
 
-nlohmann::json errorJson(const metrics::ImageError& error) {
+nlohmann::json errorJson(const metrics::LayerError& layer) {
+    const auto& error = layer.error;
     nlohmann::json json = {
         {"pixels", error.pixels},
         {"rmse", error.rmse},
@@ -17,7 +18,19 @@ nlohmann::json errorJson(const metrics::ImageError& error) {
         {"mean", error.mean},
         {"share", {{"1", error.share[0]}, {"4", error.share[1]}, {"16", error.share[2]}}}};
     json["psnr"] = std::isfinite(error.psnr) ? nlohmann::json(error.psnr) : nlohmann::json("inf");
+    json["ssim"] = layer.ssim ? nlohmann::json(*layer.ssim) : nlohmann::json();
+    json["flip"] = layer.flip ? nlohmann::json(*layer.flip) : nlohmann::json();
     return json;
+}
+
+void printError(const metrics::LayerError& layer) {
+    const auto& e = layer.error;
+    fmt::print("{}: rmse {:.6g}, max {:.6g}, mean {:.6g}, psnr {:.2f} dB, ", layer.layer, e.rmse,
+               e.maximum, e.mean, e.psnr);
+    if (layer.ssim && layer.flip)
+        fmt::print("ssim {:.6g}, flip {:.6g}, ", *layer.ssim, *layer.flip);
+    fmt::print("beyond 1/255 {:.4f}%, 4/255 {:.4f}%, 16/255 {:.4f}% of {} pixels\n",
+               100 * e.share[0], 100 * e.share[1], 100 * e.share[2], e.pixels);
 }
 
 std::vector<bool> readMask(const std::string& path) {
@@ -45,33 +58,48 @@ bool exceedsShare(const std::string& limit, const metrics::ImageError& error) {
     return error.share[static_cast<std::size_t>(index)] > most;
 }
 
+/// Also refuses NaN, beyond which nothing would be.
+void requireRange(const char* option, double value, double least, double most) {
+    requireUsage(value >= least && value <= most, "{} {} is outside of {} to {}", option, value,
+                 least, most);
+}
+
+bool isBeyond(const DiffArguments& arguments, const metrics::LayerError& whole) {
+    const auto& e = whole.error;
+    bool beyond = (arguments.failRmse && e.rmse > *arguments.failRmse) ||
+                  (arguments.failMax && e.maximum > *arguments.failMax) ||
+                  (arguments.failPsnr && e.psnr < *arguments.failPsnr) ||
+                  (arguments.failSsim && *whole.ssim < *arguments.failSsim) ||
+                  (arguments.failFlip && *whole.flip > *arguments.failFlip);
+    for (const auto& limit : arguments.failShares) beyond |= exceedsShare(limit, e);
+    return beyond;
+}
+
 }  // namespace
 
 int runDiff(const DiffArguments& arguments) {
+    requireRange("--pixels-per-degree", arguments.pixelsPerDegree, 1, 1000);
+    if (arguments.failSsim) requireRange("--fail-ssim", *arguments.failSsim, -1, 1);
+    if (arguments.failFlip) requireRange("--fail-flip", *arguments.failFlip, 0, 1);
     const auto a = image::readImage(arguments.a), b = image::readImage(arguments.b);
-    const auto errors = metrics::compareImages(a, b, arguments.layer, readMask(arguments.mask));
-    const auto& whole = errors[0].error;
+    const auto errors = metrics::compareImages(a, b, arguments.layer, readMask(arguments.mask),
+                                               {arguments.pixelsPerDegree});
+    const auto& whole = errors[0];
+    requireUsage(whole.flip || (!arguments.failSsim && !arguments.failFlip),
+                 "layer '{}' is no picture for --fail-ssim and --fail-flip; allowed: RGB, albedo, "
+                 "visibility.*",
+                 whole.layer);
     if (arguments.json) {
         auto json = errorJson(whole);
-        json["layer"] = errors[0].layer;
+        json["layer"] = whole.layer;
         for (std::size_t i = 1; i < errors.size(); ++i)
-            json["layers"][errors[i].layer] = errorJson(errors[i].error);
+            json["layers"][errors[i].layer] = errorJson(errors[i]);
         fmt::print("{}\n", json.dump(2));
     } else {
-        for (std::size_t i = errors.size() == 2 ? 1 : 0; i < errors.size(); ++i) {
-            const auto& e = errors[i].error;
-            fmt::print(
-                "{}: rmse {:.6g}, max {:.6g}, mean {:.6g}, psnr {:.2f} dB, beyond 1/255 {:.4f}%, "
-                "4/255 "
-                "{:.4f}%, 16/255 {:.4f}% of {} pixels\n",
-                errors[i].layer, e.rmse, e.maximum, e.mean, e.psnr, 100 * e.share[0],
-                100 * e.share[1], 100 * e.share[2], e.pixels);
-        }
+        for (std::size_t i = errors.size() == 2 ? 1 : 0; i < errors.size(); ++i)
+            printError(errors[i]);
     }
-    bool beyond = (arguments.failRmse && whole.rmse > *arguments.failRmse) ||
-                  (arguments.failMax && whole.maximum > *arguments.failMax) ||
-                  (arguments.failPsnr && whole.psnr < *arguments.failPsnr);
-    for (const auto& limit : arguments.failShares) beyond |= exceedsShare(limit, whole);
+    const bool beyond = isBeyond(arguments, whole);
     if (beyond)
         fmt::print(stderr, "penumbra: {} and {} differ beyond the limit\n", arguments.a,
                    arguments.b);

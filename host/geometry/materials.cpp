@@ -137,6 +137,7 @@ MaterialArrays packMaterials(const scene::Scene& scene) {
         out.normalScale = m.normalScale;
         out.alphaCutoff = m.alphaCutoff;
         out.transmission = m.transmission;
+        out.flags = m.alphaMode == scene::AlphaMode::opaque ? MATERIAL_OPAQUE : 0;
         arrays.materials.push_back(out);
     }
     return arrays;

@@ -11,6 +11,7 @@ namespace penumbra::image {
 /// An image read back: named planes of width * height floats (uint channels converted).
 struct LoadedImage {
     int width = 0, height = 0;
+    bool srgb = false;  ///< R, G, B are sRGB-encoded (PNG), not linear (EXR)
     std::vector<Channel> channels;
     std::vector<std::pair<std::string, std::string>> header;
     const std::vector<float>* find(const std::string& name) const;
@@ -23,6 +24,9 @@ LoadedImage readImage(const std::string& path);
 /// name. Throws Error naming path and reason; removes the temporary file.
 void writeWhole(const std::string& path, const void* context,
                 void (*write)(const std::string& temporary, const void* context));
+
+/// A PNG file of sRGB bytes [height, width, 3] in memory.
+std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int width, int height);
 
 void writeExrFile(const std::string& path, const Frame& frame);
 void writePngFile(const std::string& path, const Frame& frame);

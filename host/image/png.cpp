@@ -75,6 +75,28 @@ void writePngFile(const std::string& path, const Frame& frame) {
     require(std::fflush(file.get()) == 0, "{}: the disk is full or the file was closed", path);
 }
 
+std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int width, int height) {
+    std::vector<std::uint8_t> bytes;
+    Writer w;
+    png_set_write_fn(
+        w.png, &bytes,
+        [](png_structp png, png_bytep data, png_size_t size) {
+            auto* out = static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
+            out->insert(out->end(), data, data + size);
+        },
+        nullptr);
+    png_set_IHDR(w.png, w.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
+                 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(w.png, w.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(w.png, w.info);
+    for (int y = 0; y < height; ++y)
+        png_write_row(w.png, rgb.data() + 3 * static_cast<std::size_t>(y) *
+                                              static_cast<std::size_t>(width));
+    png_write_end(w.png, nullptr);
+    return bytes;
+}
+
 LoadedImage readPngFile(const std::string& path) try {
     const File file = openFile(path, "rb");
     Reader r;
@@ -88,6 +110,7 @@ LoadedImage readPngFile(const std::string& path) try {
     png_set_interlace_handling(r.png);
     png_read_update_info(r.png, r.info);
     LoadedImage image;
+    image.srgb = true;
     image.width = static_cast<int>(png_get_image_width(r.png, r.info));
     image.height = static_cast<int>(png_get_image_height(r.png, r.info));
     const auto rowBytes = png_get_rowbytes(r.png, r.info);

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+
+#include "host/image/srgb.h"
 
 namespace penumbra::image {
 namespace {
@@ -17,10 +20,8 @@ const std::array<std::uint8_t, kSteps + 1>& srgbBytes() {
         std::array<std::uint8_t, kSteps + 1> bytes{};
         for (int i = 0; i <= kSteps; ++i) {
             const double v = static_cast<double>(i) / kSteps;
-            const double encoded =
-                v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
             bytes[static_cast<std::size_t>(i)] =
-                static_cast<std::uint8_t>(std::lround(encoded * 255));
+                static_cast<std::uint8_t>(std::lround(srgbFromLinear(v) * 255));
         }
         return bytes;
     }();
@@ -43,6 +44,17 @@ void pbrNeutral(float (&rgb)[3]) {
     for (float& c : rgb) c += (newPeak - c) * mix;
 }
 
+void toneMapPixel(float (&rgb)[3], float alpha, float gain) {
+    if (std::isnan(rgb[0]) || std::isnan(rgb[1]) || std::isnan(rgb[2]) || std::isnan(alpha)) {
+        for (float& c : rgb) c = std::numeric_limits<float>::quiet_NaN();
+        return;
+    }
+    const float uncovered = kBackground * (1 - std::clamp(alpha, 0.0F, 1.0F));
+    for (float& c : rgb) c = std::clamp(c * gain + uncovered, 0.0F, 1e30F);
+    pbrNeutral(rgb);
+    for (float& c : rgb) c = std::clamp(c, 0.0F, 1.0F);
+}
+
 std::vector<std::uint8_t> toneMap(const Frame& frame) {
     const auto& table = srgbBytes();
     const auto exposure = static_cast<float>(frame.exposure);
@@ -50,13 +62,11 @@ std::vector<std::uint8_t> toneMap(const Frame& frame) {
     std::vector<std::uint8_t> bytes(3 * pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
         const float* in = &frame.rgba[4 * i];
-        const float uncovered = kBackground * (1 - in[3]);
-        float rgb[3] = {in[0] * exposure + uncovered, in[1] * exposure + uncovered,
-                        in[2] * exposure + uncovered};
-        pbrNeutral(rgb);
+        float rgb[3] = {in[0], in[1], in[2]};
+        toneMapPixel(rgb, in[3], exposure);
         for (std::size_t c = 0; c < 3; ++c) {
-            const float clamped = rgb[c] >= 0 ? std::min(rgb[c], 1.0F) : 0.0F;  // NaN becomes 0
-            bytes[3 * i + c] = table[static_cast<std::size_t>(std::lround(clamped * kSteps))];
+            const float shown = rgb[c] >= 0 ? rgb[c] : 0.0F;  // NaN becomes 0
+            bytes[3 * i + c] = table[static_cast<std::size_t>(std::lround(shown * kSteps))];
         }
     }
     return bytes;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "host/metrics/ssim.h"
 #include "runtime/error.h"
 
 namespace penumbra::metrics {
@@ -71,6 +72,27 @@ std::vector<std::string> chooseLayers(const image::LoadedImage& a, const image::
     return {"RGB"};
 }
 
+/// Fills in what is measured of the layer as a picture.
+void addPerceived(const image::LoadedImage& a, const image::LoadedImage& b,
+                  const std::vector<bool>& mask, const FlipSettings& settings, LayerError& error) {
+    const float gain = commonGain(a, b);
+    const auto inA = pictureOf(a, error.layer, gain), inB = pictureOf(b, error.layer, gain);
+    if (!inA || !inB) return;
+    error.ssim = ssim(*inA, *inB, mask).mean;
+    error.flip = flip(*inA, *inB, mask, settings).mean;
+}
+
+/// The mean of a figure of all layers, if all of them have it.
+std::optional<double> meanOf(const std::vector<LayerError>& errors,
+                             std::optional<double> LayerError::*figure) {
+    double sum = 0;
+    for (const auto& error : errors) {
+        if (!(error.*figure)) return std::nullopt;
+        sum += *(error.*figure);
+    }
+    return sum / static_cast<double>(errors.size());
+}
+
 }  // namespace
 
 ImageError imageError(const Planes& a, const Planes& b, const std::vector<bool>& mask) {
@@ -104,7 +126,8 @@ ImageError imageError(const Planes& a, const Planes& b, const std::vector<bool>&
 }
 
 std::vector<LayerError> compareImages(const image::LoadedImage& a, const image::LoadedImage& b,
-                                      const std::string& layer, const std::vector<bool>& mask) {
+                                      const std::string& layer, const std::vector<bool>& mask,
+                                      const FlipSettings& flipSettings) {
     require(a.width == b.width && a.height == b.height,
             "the images have {}x{} and {}x{} pixels; they must agree", a.width, a.height, b.width,
             b.height);
@@ -120,12 +143,15 @@ std::vector<LayerError> compareImages(const image::LoadedImage& a, const image::
         const auto pa = planesOf(a, name), pb = planesOf(b, name);
         require(pa.size() == pb.size(), "layer '{}' has {} and {} channels", name, pa.size(),
                 pb.size());
-        errors.push_back({name, imageError(pa, pb, counted)});
+        errors.push_back({name, imageError(pa, pb, counted), {}, {}});
+        addPerceived(a, b, counted, flipSettings, errors.back());
         allA.insert(allA.end(), pa.begin(), pa.end());
         allB.insert(allB.end(), pb.begin(), pb.end());
     }
     const std::string whole = layers.size() == 1 ? layers[0] : "visibility";
-    errors.insert(errors.begin(), {whole, imageError(allA, allB, counted)});
+    errors.insert(errors.begin(),
+                  {whole, imageError(allA, allB, counted), meanOf(errors, &LayerError::ssim),
+                   meanOf(errors, &LayerError::flip)});
     return errors;
 }
 

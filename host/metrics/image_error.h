@@ -2,10 +2,12 @@
 // How far two images are apart.
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host/image/image_file.h"
+#include "host/metrics/flip.h"
 
 namespace penumbra::metrics {
 
@@ -26,12 +28,16 @@ ImageError imageError(const std::vector<const std::vector<float>*>& a,
 struct LayerError {
     std::string layer;
     ImageError error;
+    /// Means of ssim() and flip() of what pictureOf() makes of the layer; of several layers their
+    /// mean; none where a layer is no picture.
+    std::optional<double> ssim, flip;
 };
 
 /// Compares the layers that both images have: every visibility.* if any is in both, else RGB; or
 /// `layer`. Visibility leaves out background (alpha 0 in both). The first entry is over all of
 /// them. Throws Error where sizes differ or nothing can be compared.
 std::vector<LayerError> compareImages(const image::LoadedImage& a, const image::LoadedImage& b,
-                                      const std::string& layer, const std::vector<bool>& mask);
+                                      const std::string& layer, const std::vector<bool>& mask,
+                                      const FlipSettings& flipSettings = {});
 
 }  // namespace penumbra::metrics

@@ -31,6 +31,7 @@ std::vector<std::pair<std::string, std::string>> Pipeline::header() const {
     if (!options_.lights.empty()) add("lights", fmt::format("{}", fmt::join(options_.lights, " ")));
     add("temporal", fmt::format("{}", options_.temporal));
     add("exposure", options_.exposure);
+    add("gain", fmt::format("{:.9g}", exposure_));  // what exposure came to; diff shows EXR with it
     add("aovs", fmt::format("{}", fmt::join(options_.aovs, ",")));
     add("device", device_->info().name);
     add("driver", device_->info().platform + " " + device_->info().driver);
@@ -44,6 +45,7 @@ std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, 
                            {"wallMs", wallMs},
                            {"triangles", geometry_->mesh().triangleCount},
                            {"points", counts.points},
+                           {"mapTriangles", counts.mapTriangles},
                            {"nearPoints", counts.nearPoints},
                            {"outsideFov", counts.outsideFov},
                            {"bytes", device_->memory().current},
@@ -57,8 +59,9 @@ std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, 
                                   {"maxLaunchMs", s.maxLaunchMs}});
     if (!device_->profiler().timestampsWork())
         warnOnce(
-            "the device's timestamps are zero: stages are timed by the wall clock, one launch at a "
-            "time");
+            fmt::format("the timestamps of device {} are zero: stages are timed by the wall clock, "
+                        "one launch at a time",
+                        device_->info().name));
     if (const auto dropped = geometry_->counts().nonFiniteVertices)
         warnOnce(fmt::format("{} vertices are not finite: their triangles are dropped", dropped));
     if (counts.nearPoints)

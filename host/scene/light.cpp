@@ -155,10 +155,7 @@ std::vector<AreaLight> lightsAt(const Scene& scene, const Pose& pose, const Boun
     for (std::size_t i = 0; i < sources.size(); ++i) {
         AreaLight light = lightAt(sources[i], pose, bounds);
         light.name = cleanName(sources[i].name, i, used);
-        SampleChoice choice = samples;
-        if (light.isPoint()) choice.count = 1;
-        for (const auto& p : samplePattern(choice, light.disk))
-            light.samples.emplace_back(p.x * light.width / 2, p.y * light.height / 2);
+        placeSamples(samples, light);
         lights.push_back(std::move(light));
     }
     return lights;

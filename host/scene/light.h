@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 namespace penumbra::scene {
 
-enum class Pattern { hammersley, poisson, grid, jittered };
+enum class Pattern { hammersley, poisson, grid, jittered, random };
 
 /// Which samples a light gets. columns x rows > 0: cells of a grid (on a disk those whose centre
 /// lies inside); else `count` samples of `pattern`.
@@ -28,8 +29,12 @@ SampleChoice parseSampleCount(const std::string& text, SampleChoice base);
 Pattern parsePattern(const std::string& text);
 
 /// Offsets in [-1, 1]^2 (disk: in the unit disk), to be scaled by half the light's size.
-/// hammersley and poisson lie concentrically on disks; one sample lies at the centre.
+/// hammersley lies concentrically on disks, poisson is Bridson's in the shape itself; one sample
+/// lies at the centre.
 std::vector<glm::dvec2> samplePattern(const SampleChoice& choice, bool disk);
+struct AreaLight;
+/// Gives a light the samples of a choice; a point has one.
+void placeSamples(SampleChoice choice, AreaLight& light);
 
 /// A light at one time, in the world. Emits along the frame's third axis from a rectangle or disk
 /// in the plane of the first two; a sphere is a disk of its radius that faces C.
@@ -44,6 +49,8 @@ struct AreaLight {
     double innerConeRad = 0, outerConeRad = 0;  ///< outer 0: no cone
     double fovRad = 0, nearMetres = 0;          ///< 0: fitted
     std::vector<glm::dvec2> samples;            ///< metres along axisX, axisY
+    /// Where set, rays go to random points of their own in each pixel, as many as there are samples.
+    std::optional<std::uint32_t> randomSeed;
     bool isPoint() const { return width <= 0 && height <= 0; }
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/scene/light.h"
+#include "host/scene/poisson_disk.h"
 #include "runtime/error.h"
 
 namespace penumbra::scene {
@@ -11,14 +12,6 @@ namespace {
 
 constexpr int kMaxSamples = 4096;
 constexpr double kPi = 3.14159265358979323846;
-
-/// PCG hash: the same numbers on every machine.
-double uniform(std::uint32_t& state) {
-    state = state * 747796405U + 2891336453U;
-    std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737U;
-    word = (word >> 22) ^ word;
-    return (word + 0.5) / 4294967296.0;
-}
 
 double radicalInverse(std::uint32_t bits) {
     double value = 0;
@@ -42,26 +35,6 @@ std::vector<glm::dvec2> hammersley(int count) {
     for (int i = 0; i < count; ++i)
         points.emplace_back(2 * (i + 0.5) / count - 1,
                             2 * (radicalInverse(static_cast<std::uint32_t>(i)) + 0.5 / count) - 1);
-    return points;
-}
-
-/// Mitchell's best candidate: each sample is the farthest of some random ones from those before it.
-std::vector<glm::dvec2> poisson(int count, std::uint32_t seed) {
-    std::vector<glm::dvec2> points;
-    std::uint32_t state = seed * 2654435769U + 12345U;
-    for (int i = 0; i < count; ++i) {
-        const int candidates = std::min(8 + i, 64);
-        glm::dvec2 best(0);
-        double bestDistance = -1;
-        for (int c = 0; c < candidates; ++c) {
-            const double x = 2 * uniform(state) - 1, y = 2 * uniform(state) - 1;
-            double nearest = 1e9;
-            for (const auto& p : points)
-                nearest = std::min(nearest, (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y));
-            if (nearest > bestDistance) bestDistance = nearest, best = {x, y};
-        }
-        points.push_back(best);
-    }
     return points;
 }
 
@@ -104,9 +77,9 @@ SampleChoice parseSampleCount(const std::string& text, SampleChoice choice) {
         requireUsage(choice.columns <= kMaxSamples && choice.rows <= kMaxSamples,
                      "--light-samples {} has more than {} samples", text, kMaxSamples);
         choice.count = choice.columns * choice.rows;
-        requireUsage(choice.pattern != Pattern::poisson,
-                     "--light-samples {} is a grid, and --light-pattern poisson is none; allowed: "
-                     "grid, jittered",
+        requireUsage(choice.pattern != Pattern::poisson && choice.pattern != Pattern::random,
+                     "--light-samples {} is a grid, and --light-pattern poisson and random are "
+                     "none; allowed: grid, jittered",
                      text);
         if (choice.pattern != Pattern::jittered) choice.pattern = Pattern::grid;
     }
@@ -120,8 +93,10 @@ Pattern parsePattern(const std::string& text) {
     if (text == "poisson") return Pattern::poisson;
     if (text == "grid") return Pattern::grid;
     if (text == "jittered") return Pattern::jittered;
+    if (text == "random") return Pattern::random;
     throw Error(
-        fmt::format("--light-pattern '{}' is unknown; allowed: hammersley, poisson, grid, jittered",
+        fmt::format("--light-pattern '{}' is unknown; allowed: hammersley, poisson, grid, jittered, "
+                    "random",
                     text),
         ExitCode::usage);
 }
@@ -138,11 +113,19 @@ std::vector<glm::dvec2> samplePattern(const SampleChoice& choice, bool disk) {
         }
         return cells(grid, disk);
     }
-    auto points = choice.pattern == Pattern::poisson ? poisson(choice.count, choice.seed)
-                                                     : hammersley(choice.count);
+    if (choice.pattern == Pattern::poisson) return poissonDisk(choice.count, disk, choice.seed);
+    auto points = hammersley(choice.count);
     if (disk)
         for (auto& p : points) p = toDisk(p);
     return points;
+}
+
+void placeSamples(SampleChoice choice, AreaLight& light) {
+    if (light.isPoint()) choice.count = 1;
+    light.samples.clear();
+    if (choice.pattern == Pattern::random && !light.isPoint()) light.randomSeed = choice.seed;
+    for (const auto& p : samplePattern(choice, light.disk))
+        light.samples.emplace_back(p.x * light.width / 2, p.y * light.height / 2);
 }
 
 }  // namespace penumbra::scene

@@ -15,6 +15,7 @@ Temporal::Temporal(const runtime::Program& frame, int width, int height, int win
       stride_(shared::gbufferStride(width * height)),
       window_(window),
       temporal_(frame, "temporal"),
+      begin_(frame, "temporal_begin"),
       keep_(frame, "temporal_keep"),
       lastDepth_(*device_, "last depth", static_cast<std::uint64_t>(stride_)),
       lastObject_(*device_, "last objects", static_cast<std::uint64_t>(stride_)) {}
@@ -43,6 +44,8 @@ void Temporal::run(const gbuffer::GBuffer& gbuffer, std::size_t light,
     params.ages = window_ - 1;
     params.channels = visibility.channels;
     params.valid = valid_;
+    begin_.launch({static_cast<std::uint64_t>(stride_)}, {64}, params, visibility.state,
+                  visibility.planes, history.now);
     temporal_.launch({static_cast<std::uint64_t>(stride_)}, {64}, params, gbuffer.planes,
                      lastDepth_, lastObject_, visibility.state, history.last, history.now,
                      visibility.planes);

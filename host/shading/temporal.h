@@ -39,6 +39,8 @@ class Temporal {
     runtime::Kernel<shared::TemporalParams, Buffer<float>, Buffer<float>, Buffer<std::uint32_t>,
                     Buffer<std::uint32_t>, Buffer<float>, Buffer<float>, Buffer<float>>
         temporal_;
+    runtime::Kernel<shared::TemporalParams, Buffer<std::uint32_t>, Buffer<float>, Buffer<float>>
+        begin_;
     runtime::Kernel<int, Buffer<float>, Buffer<float>, Buffer<std::uint32_t>> keep_;
     Buffer<float> lastDepth_;
     Buffer<std::uint32_t> lastObject_;

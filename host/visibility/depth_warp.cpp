@@ -11,8 +11,7 @@ DepthWarp::DepthWarp(const runtime::Program& multiView, Parallelism parallelism,
       viewsPerPass_(viewsPerPass),
       warp_(multiView, "depth_warp"),
       owned_(multiView, "depth_warp_owned"),
-      owned16_(multiView, "depth_warp_owned16"),
-      pack_(multiView, "depth_warp_pack") {
+      owned16_(multiView, "depth_warp_owned16") {
     if (parallelism_ == Parallelism::automatic)
         parallelism_ = device_->info().isCpu ? Parallelism::owned : Parallelism::full;
 }
@@ -21,13 +20,6 @@ int DepthWarp::viewsPerLaunch(int batch) const {
     if (parallelism_ == Parallelism::serial) return 1;
     if (parallelism_ == Parallelism::partial) return std::min(viewsPerPass_, batch);
     return batch;
-}
-
-void DepthWarp::pack(const LightView& view, const MapBatch& batch) {
-    if (!batch.maps16) return;
-    const auto texels = static_cast<std::uint32_t>(view.params.mapStride) *
-                        static_cast<std::uint32_t>(batch.viewCount);
-    pack_.launch({texels}, {64}, texels, *batch.maps32, *batch.maps16);
 }
 
 void DepthWarp::run(const PointBuffers& points, const LightView& view, const Buffer<float>& samples,
@@ -57,7 +49,6 @@ void DepthWarp::run(const PointBuffers& points, const LightView& view, const Buf
         warp_.launch({items}, {64}, view.params, views, points.points32, points.points16,
                      points.keys, samples, *batch.maps32, counters);
     }
-    pack(view, batch);
 }
 
 }  // namespace penumbra::visibility

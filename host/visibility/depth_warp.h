@@ -13,15 +13,14 @@ class DepthWarp {
   public:
     DepthWarp(const runtime::Program& multiView, Parallelism parallelism, int viewsPerPass);
 
-    /// Enqueues filling the batch's maps. `automatic` is owned on CPUs, full elsewhere.
+    /// Enqueues filling the batch's maps: maps32 where needsWideMaps(). `automatic` is owned on CPUs,
+    /// full elsewhere.
     void run(const PointBuffers& points, const LightView& view, const Buffer<float>& samples,
              const MapBatch& batch, const Buffer<shared::MultiViewCounters>& counters);
-    /// True if 16-bit maps are packed from 32-bit ones.
+    /// True if only 32-bit maps can be filled.
     bool needsWideMaps() const { return parallelism_ != Parallelism::owned; }
     /// Views per launch: 1, viewsPerPass, or all of a batch.
     int viewsPerLaunch(int batch) const;
-    /// Enqueues packing 16-bit maps from 32-bit ones.
-    void pack(const LightView& view, const MapBatch& batch);
 
   private:
     template <typename Maps>
@@ -33,7 +32,6 @@ class DepthWarp {
     int viewsPerPass_;
     Warp<Buffer<std::uint32_t>> warp_, owned_;
     Warp<Buffer<std::uint16_t>> owned16_;
-    runtime::Kernel<std::uint32_t, Buffer<std::uint32_t>, Buffer<std::uint16_t>> pack_;
 };
 
 }  // namespace penumbra::visibility

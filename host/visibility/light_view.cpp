@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "kernels/shared/map_raster.h"
+
 namespace penumbra::visibility {
 namespace {
 
@@ -13,10 +15,11 @@ constexpr double kMaxFov = 140 * kDegree, kSpare = 1.02;
 constexpr int kMaxEnlarged = 8192;
 /// Casters between this share of the near plane and the near plane keep depth 1; nearer ones are
 /// cut.
-constexpr double kNearClip = 1.0 / 16;
+constexpr double kNearClip = 1.0 / MAP_NEAR_CLIP;
 
 struct Fit {
     double tanHalfFov = 1, near = 1;
+    double farthest = 1;
     bool complete = true;
 };
 
@@ -29,14 +32,16 @@ glm::dvec3 inLight(const scene::AreaLight& light, const glm::dvec3& world) {
 Fit fitTo(const scene::AreaLight& light, const scene::Bounds& casters) {
     const double radius = casters.empty ? 1 : std::max(casters.radius(), 1e-9);
     std::vector<glm::dvec3> corners;
-    double nearest = 1e300;
+    double nearest = 1e300, farthest = 0;
     for (int i = 0; i < 8; ++i) {
         corners.push_back(inLight(
             light, {i & 1 ? casters.high.x : casters.low.x, i & 2 ? casters.high.y : casters.low.y,
                     i & 4 ? casters.high.z : casters.low.z}));
         nearest = std::min(nearest, corners.back().z);
+        farthest = std::max(farthest, corners.back().z);
     }
     Fit fit;
+    fit.farthest = farthest;
     const double least = std::max(0.25 * std::max(light.width, light.height), 1e-3 * radius);
     fit.near = light.nearMetres > 0 ? light.nearMetres : std::max(0.9 * nearest, least);
     const double maxTangent = std::tan(kMaxFov / 2);
@@ -83,6 +88,8 @@ LightView fitLightView(const scene::AreaLight& light, const scene::Bounds& caste
     const int cap = std::max(kMaxEnlarged, resolution);
     p.enlarged = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(cap)));
     view.complete = fit.complete;
+    view.farthestCaster = fit.farthest;
+    view.disk = light.disk;
     view.density = density * std::min(1.0, p.enlarged / wanted);
     const double focal = resolution / (2 * t);
     p.tanHalfFov = static_cast<float>(t);
@@ -116,6 +123,18 @@ LightView fitLightView(const scene::AreaLight& light, const scene::Bounds& caste
     // X right, Y down, Z forward is right-handed: nothing is mirrored, fronts turn
     // counter-clockwise
     r.frontIsClockwise = 0;
+
+    auto& c = view.central;
+    c = r;
+    c.width = c.height = resolution;
+    const auto centralRow = [&](const glm::dvec3& axis) {
+        const glm::dvec3 a = focal * axis + 0.5 * resolution * light.axisZ;
+        return row(a, -glm::dot(a, origin));
+    };
+    c.rowX = centralRow(light.axisX);
+    c.rowY = centralRow(light.axisY);
+    c.rowW = row(light.axisZ, -glm::dot(light.axisZ, origin));
+    c.rowD = row(glm::dvec3(0), near * kNearClip);
     return view;
 }
 

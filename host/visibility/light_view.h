@@ -13,7 +13,10 @@ struct LightView {
     shared::MultiViewParams
         params{};  ///< pointCapacity, precision, alphaKeys, depthBits: the technique's
     shared::RasterView enlarged{};  ///< the view that holds all views; flags: the technique's
+    shared::RasterView central{};   ///< of the light's centre, as large as a map; depth: near clip / z
     std::vector<float> samples;     ///< [view, 2] kx, ky of shared/multi_view.h
+    bool disk = false;              ///< the light's shape
+    double farthestCaster = 1;      ///< metres along the light's axis
     bool complete = true;           ///< every view holds all casters: what lies outside is lit
     double density = 1;             ///< what is left of the density asked for after the cap of 8192
 };

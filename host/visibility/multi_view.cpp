@@ -15,16 +15,15 @@ constexpr int kStreamedViews = 8;  // maps that a CPU holds at a time: more fall
 
 }  // namespace
 
-MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings, int width,
-                     int height, const runtime::Program& program)
-    : device_(&device),
+MultiView::MultiView(const runtime::Program& multiView, const MapSettings& settings, int width,
+                     int height)
+    : device_(&multiView.device()),
       settings_(settings),
       stride_(shared::gbufferStride(width * height)),
-      receivers_(program, "receivers"),
-      lookup32_(program, "map_lookup"),
-      lookup16_(program, "map_lookup16"),
-      average_(program, "map_average"),
-      upsample_(program, "map_upsample") {
+      receivers_(multiView, "receivers"),
+      pack_(multiView, "map_pack"),
+      average_(multiView, "map_average"),
+      upsample_(multiView, "map_upsample") {
     requireUsage(settings.depthBits == 16 || settings.depthBits == 32,
                  "depthBits = {} is neither 16 nor 32", settings.depthBits);
     const int step = settings.halfResolution ? 2 : 1;
@@ -37,31 +36,21 @@ MultiView::MultiView(runtime::Device& device, const MultiViewSettings& settings,
     image_.receiverStride = shared::gbufferStride(receivers);
     image_.originOffset = SHADOW_ORIGIN_OFFSET;
     const auto slots = static_cast<std::uint64_t>(image_.receiverStride);
-    receiver_ = Buffer<float>(device, "receivers", runtime::Shape{1, RECEIVER_PLANES, slots});
-    hidden_ = Buffer<std::uint32_t>(device, "hidden tests", slots);
-    maps32_ = Buffer<std::uint32_t>(device, "depth maps", 1);
-    maps16_ = Buffer<std::uint16_t>(device, "depth maps", 1);
+    auto& r = receiverImage_;
+    r.width = image_.receiverWidth;
+    r.stride = image_.receiverStride;
+    r.planes = Buffer<float>(*device_, "receivers", runtime::Shape{1, RECEIVER_PLANES, slots});
+    r.hidden = Buffer<std::uint32_t>(*device_, "hidden tests", slots);
+    maps32_ = Buffer<std::uint32_t>(*device_, "depth maps", 1);
+    maps16_ = Buffer<std::uint16_t>(*device_, "depth maps", 1);
 }
 
-std::uint64_t MultiView::plannedBytes(const MultiViewSettings& settings, int width, int height) {
+std::uint64_t MultiView::plannedBytes(const MapSettings& settings, int width, int height) {
     const auto size = static_cast<std::uint64_t>(settings.resolution);
     const std::uint64_t shrink = settings.halfResolution ? 4 : 1;
     const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     return size * size * static_cast<std::uint64_t>(settings.depthBits / 8) +
            pixels / shrink * (RECEIVER_PLANES + 1) * sizeof(float);
-}
-
-int MultiView::tapWeight() const {
-    switch (settings_.pcf) {
-        case Pcf::one:
-            return 1;
-        case Pcf::five:
-            return 5;
-        case Pcf::nine:
-            return 9;
-        default:
-            return 256;
-    }
 }
 
 int MultiView::batchSize(const LightView& view, bool wide) const {
@@ -101,16 +90,17 @@ void MultiView::allocateMaps(const LightView& view, int batch, bool wide) {
     if (settings_.depthBits == 32 || wide) maps32_.grow(*device_, "depth maps", texels);
 }
 
-void MultiView::run(const Inputs& inputs, double density, MapSource& source,
-                    Visibility& visibility) {
-    LightView view =
-        fitLightView(inputs.light, inputs.casters, inputs.centre, settings_.resolution, density);
+void MultiView::pack(const LightView& view, const MapBatch& batch) {
+    const auto texels = static_cast<std::uint32_t>(view.params.mapStride) *
+                        static_cast<std::uint32_t>(batch.viewCount);
+    pack_.launch({texels}, {64}, texels, *batch.maps32, *batch.maps16);
+}
+
+void MultiView::run(const Inputs& inputs, const scene::AreaLight& views, MapSource& source,
+                    MapReader& reader, Visibility& visibility) {
+    LightView view = fitLightView(views, inputs.casters, inputs.centre, settings_.resolution,
+                                  source.density());
     view.params.depthBits = settings_.depthBits;
-    if (view.density < density * 0.999)
-        warnings_.push_back(
-            fmt::format("light '{}': the enlarged view is capped at {} pixels: density {:.2f} of "
-                        "{:.2f}; use a smaller resolution or a larger near=",
-                        inputs.light.name, view.params.enlarged, view.density, density));
     if (!view.complete && settings_.outside == Outside::lit)
         warnings_.push_back(
             fmt::format("light '{}': its views cannot hold all casters, and receivers outside of "
@@ -130,10 +120,12 @@ void MultiView::run(const Inputs& inputs, double density, MapSource& source,
     const bool trace = !view.complete && settings_.outside == Outside::raytrace;
     image_.outsideState = trace ? STATE_OUTSIDE : STATE_TESTED;
     image_.countOutside = view.complete ? 0 : 1;
-    if (image_.pixelStep > 1) receiver_.fill(0);
+    if (image_.pixelStep > 1) receiverImage_.planes.fill(0);
+    receiverImage_.samples = &light.samples;
     const auto pixels = static_cast<std::uint64_t>(stride_);
-    receivers_.launch({pixels}, {64}, image_, view.params, inputs.gbuffer.planes, receiver_,
-                      visibility.state, hidden_, light.counters);
+    receivers_.launch({pixels}, {64}, image_, view.params, inputs.gbuffer.planes,
+                      receiverImage_.planes, visibility.state, receiverImage_.hidden,
+                      light.counters);
 
     const bool wide = source.needsWideMaps();
     const int batch = batchSize(view, wide);
@@ -143,11 +135,12 @@ void MultiView::run(const Inputs& inputs, double density, MapSource& source,
                       settings_.depthBits == 16 ? &maps16_ : nullptr};
         profiler.beginStage("depth maps");
         source.fill(maps);
+        if (wide && maps.maps16) pack(view, maps);
         profiler.beginStage("lighting");
-        lookup(view, maps, light);
+        reader.read(view, maps, receiverImage_);
         if (inputs.depthMaps) keepMaps(view, maps, *inputs.depthMaps);
     }
-    average(view, inputs.gbuffer, visibility);
+    average(view.params.views * reader.weight(), inputs.gbuffer, visibility);
     if (trace) traceOutside(inputs, visibility);
 }
 
@@ -157,34 +150,15 @@ void MultiView::traceOutside(const Inputs& inputs, Visibility& visibility) {
     tracer_->pass.run(inputs, tracer_->bvh, STATE_OUTSIDE, false, visibility);
 }
 
-void MultiView::average(const LightView& view, const GBuffer& gbuffer, Visibility& visibility) {
+void MultiView::average(int tests, const GBuffer& gbuffer, Visibility& visibility) {
     const runtime::Range pixels{static_cast<std::uint64_t>(stride_)};
     if (image_.pixelStep > 1)
-        upsample_.launch(pixels, {64}, image_, view.params.views, tapWeight(), gbuffer.planes,
-                         visibility.state, hidden_, visibility.planes);
+        upsample_.launch(pixels, {64}, image_, 1, tests, gbuffer.planes, visibility.state,
+                         receiverImage_.hidden, visibility.planes);
     else
-        average_.launch(pixels, {64}, stride_, view.params.views, tapWeight(), visibility.state,
-                        hidden_, visibility.planes);
+        average_.launch(pixels, {64}, stride_, 1, tests, visibility.state, receiverImage_.hidden,
+                        visibility.planes);
     visibility.channels = 1;
-}
-
-void MultiView::lookup(const LightView& view, const MapBatch& batch, PerLight& light) {
-    shared::LookupParams params{};
-    params.firstView = params.mapView = batch.firstView;
-    params.viewCount = batch.viewCount;
-    const int taps[] = {1, 5, 9, 4};
-    params.pcf = taps[static_cast<int>(settings_.pcf)];
-    params.slopeBias = settings_.slopeBias;
-    params.constantTexels = settings_.constantBias;
-    params.constantMetres = settings_.bias;
-    params.quantum = settings_.depthBits == 16 ? 1.0F / 65535 : 0;
-    const auto items = static_cast<std::uint64_t>(image_.receiverStride / device_->info().lanes);
-    if (batch.maps16)
-        lookup16_.launch({items}, {64}, view.params, params, image_.receiverStride, receiver_,
-                         light.samples, *batch.maps16, hidden_);
-    else
-        lookup32_.launch({items}, {64}, view.params, params, image_.receiverStride, receiver_,
-                         light.samples, *batch.maps32, hidden_);
 }
 
 void MultiView::keepMaps(const LightView& view, const MapBatch& batch, DepthMaps& out) {

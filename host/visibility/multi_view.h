@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Averages shadow tests over the parallel views of a light, a batch of depth maps at a time. A
-// Source fills the maps; cropping, bias, filtering and accumulation are the same for every source.
+// source fills the maps, a reader tests receivers against them; which pixels are tested, batches,
+// accumulation and what lies outside of the views are the same for all.
 #pragma once
 #include <memory>
 #include <string>
@@ -27,21 +28,46 @@ class MapSource {
     /// Called once per light, before its batches. May adapt `view.params`.
     virtual void begin(const Inputs& inputs, LightView& view, Buffer<float>& samples,
                        Buffer<shared::MultiViewCounters>& counters) = 0;
-    /// Enqueues filling all maps of the batch.
+    /// Pixels of the enlarged view per texel of a map, where the source looks through that view.
+    virtual double density() const { return 1; }
+    /// Enqueues filling all maps of the batch: maps32 where needsWideMaps(), else the narrower one.
     virtual void fill(const MapBatch& batch) = 0;
-    /// True if 16-bit maps need 32-bit ones beside them to be filled.
+    /// True if only 32-bit maps can be filled: 16-bit ones are packed from them.
     virtual bool needsWideMaps() const = 0;
     virtual bool grew() = 0;
 };
 
+/// The pixels that are tested, in the central view of the light; layouts in
+/// kernels/shared/multi_view.h.
+struct ReceiverImage {
+    int width = 0;                            ///< receivers in a row
+    int stride = 0;                           ///< floats between planes
+    Buffer<float> planes;                     ///< [RECEIVER_PLANES, stride]
+    Buffer<std::uint32_t> hidden;             ///< [stride] tests that failed
+    const Buffer<float>* samples = nullptr;   ///< [view, 2] kx, ky
+};
+
+/// Tests receivers against maps.
+class MapReader {
+  public:
+    virtual ~MapReader() = default;
+    /// Tests of a receiver in each map: visibility is 1 - hidden / (maps x weight).
+    virtual int weight() const = 0;
+    /// Enqueues adding the failed tests of the batch's maps to receivers.hidden.
+    virtual void read(const LightView& view, const MapBatch& batch, ReceiverImage& receivers) = 0;
+};
+
 class MultiView {
   public:
-    MultiView(runtime::Device& device, const MultiViewSettings& settings, int width, int height,
-              const runtime::Program& program);
+    MultiView(const runtime::Program& multiView, const MapSettings& settings, int width,
+              int height);
 
     /// Receivers and one depth map: the least that it works with.
-    static std::uint64_t plannedBytes(const MultiViewSettings& settings, int width, int height);
-    void run(const Inputs& inputs, double density, MapSource& source, Visibility& visibility);
+    static std::uint64_t plannedBytes(const MapSettings& settings, int width, int height);
+    /// Enqueues one light's visibility. `views` is the inputs' light with the samples that are the
+    /// views; what lies outside of them is traced to the inputs' own samples.
+    void run(const Inputs& inputs, const scene::AreaLight& views, MapSource& source,
+             MapReader& reader, Visibility& visibility);
     /// Reads the counters of the frame's lights (waits) and starts anew.
     Counts takeCounts();
     const std::vector<std::string>& warnings() const { return warnings_; }
@@ -65,32 +91,25 @@ class MultiView {
     };
     int batchSize(const LightView& view, bool wide) const;
     void allocateMaps(const LightView& view, int batch, bool wide);
-    void lookup(const LightView& view, const MapBatch& batch, PerLight& light);
+    void pack(const LightView& view, const MapBatch& batch);
     void traceOutside(const Inputs& inputs, Visibility& visibility);
-    void average(const LightView& view, const GBuffer& gbuffer, Visibility& visibility);
+    void average(int tests, const GBuffer& gbuffer, Visibility& visibility);
     void keepMaps(const LightView& view, const MapBatch& batch, DepthMaps& out);
-    int tapWeight() const;
 
     runtime::Device* device_;
-    MultiViewSettings settings_;
+    MapSettings settings_;
     int stride_;
     shared::ReceiverParams image_{};
-    template <typename Texel>
-    using Lookup =
-        runtime::Kernel<shared::MultiViewParams, shared::LookupParams, int, Buffer<float>,
-                        Buffer<float>, Buffer<Texel>, Buffer<std::uint32_t>>;
     runtime::Kernel<shared::ReceiverParams, shared::MultiViewParams, Buffer<float>, Buffer<float>,
                     Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<shared::MultiViewCounters>>
         receivers_;
-    Lookup<std::uint32_t> lookup32_;
-    Lookup<std::uint16_t> lookup16_;
+    runtime::Kernel<std::uint32_t, Buffer<std::uint32_t>, Buffer<std::uint16_t>> pack_;
     runtime::Kernel<int, int, int, Buffer<std::uint32_t>, Buffer<std::uint32_t>, Buffer<float>>
         average_;
     runtime::Kernel<shared::ReceiverParams, int, int, Buffer<float>, Buffer<std::uint32_t>,
                     Buffer<std::uint32_t>, Buffer<float>>
         upsample_;
-    Buffer<float> receiver_;
-    Buffer<std::uint32_t> hidden_;
+    ReceiverImage receiverImage_;
     Buffer<std::uint32_t> maps32_;
     Buffer<std::uint16_t> maps16_;
     std::vector<std::unique_ptr<PerLight>> lights_;

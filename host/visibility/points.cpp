@@ -44,12 +44,9 @@ bool Points::grow(std::uint64_t count) {
     return true;
 }
 
-shared::RasterView Points::rasterView(const geometry::Mesh&, const LightView& view) const {
+shared::RasterView Points::rasterView(const LightView& view) const {
     auto raster = view.enlarged;
-    raster.requireFlags = DRAW_CASTS;
-    if (cull_ == Cull::automatic) raster.cullBack = DRAW_CLOSED;
-    if (cull_ == Cull::back) raster.cullBack = DRAW_ANY;
-    if (cull_ == Cull::front) raster.cullFront = DRAW_ANY;
+    selectCasters(cull_, raster);
     return raster;
 }
 
@@ -57,7 +54,7 @@ void Points::run(const geometry::Mesh& mesh, const LightView& view,
                  runtime::Buffer<shared::MultiViewCounters>& counters) {
     if (view.params.alphaKeys) buffers_.keys.grow(*device_, "point opacities", capacity_);
     tiles_.clear();
-    points_.launch(rasterView(mesh, view), mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours,
+    points_.launch(rasterView(view), mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours,
                    mesh.texels, view.params, buffers_.points32, buffers_.points16, buffers_.keys,
                    counters);
 }
@@ -67,7 +64,7 @@ void Points::runDirect(const geometry::Mesh& mesh, const LightView& view,
                        runtime::Buffer<std::uint32_t>& maps,
                        runtime::Buffer<shared::MultiViewCounters>& counters) {
     tiles_.clear();
-    direct_.launch(rasterView(mesh, view), mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours,
+    direct_.launch(rasterView(view), mesh, tiles_, mesh.materials, mesh.uvs, mesh.colours,
                    mesh.texels, view.params, views, samples, maps, counters);
 }
 

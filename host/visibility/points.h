@@ -3,11 +3,11 @@
 // them.
 #pragma once
 #include "host/gbuffer/raster.h"
+#include "host/visibility/cull.h"
 #include "host/visibility/light_view.h"
 
 namespace penumbra::visibility {
 
-enum class Cull { automatic, back, front, none };
 enum class Precision { single, half, fixed };
 
 /// The point buffers; layouts in kernels/visibility/points.cl. One element where a form is not in
@@ -41,7 +41,7 @@ class Points {
     const PointBuffers& buffers() const { return buffers_; }
 
   private:
-    shared::RasterView rasterView(const geometry::Mesh& mesh, const LightView& view) const;
+    shared::RasterView rasterView(const LightView& view) const;
 
     template <typename... Extra>
     using Kernels =

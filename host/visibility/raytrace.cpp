@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/visibility/raytrace.h"
 
+#include <bit>
+
 #include "kernels/shared/gbuffer.h"
 #include "runtime/profiler.h"
 
@@ -53,6 +55,12 @@ void RayPass::run(const Inputs& inputs, const Bvh& bvh, U32 onlyState, bool clas
     params.channels = visibility.channels;
     params.onlyState = onlyState;
     params.classify = classify ? 1 : 0;
+    if (light.randomSeed) {
+        params.shape = light.disk ? RAY_SAMPLES_DISK : RAY_SAMPLES_RECTANGLE;
+        params.centre = narrow(origin, std::bit_cast<float>(*light.randomSeed));
+        params.axisX = narrow(light.width / 2 * light.axisX, 0);
+        params.axisY = narrow(light.height / 2 * light.axisY, 0);
+    }
     params.mean = inputs.mesh.hasBlend && visibility.channels == 1 ? 1 : 0;
     image_.worldMagnitude = static_cast<float>(inputs.casters.empty ? 0 : inputs.casters.radius());
     const auto& mesh = inputs.mesh;

@@ -44,6 +44,7 @@ struct Inputs {
 /// What a frame of a technique did; summed over lights.
 struct Counts {
     std::uint64_t points = 0, outsideFov = 0, nearPoints = 0;
+    std::uint64_t mapTriangles = 0;  ///< drawn into each depth map
 };
 
 class Technique {

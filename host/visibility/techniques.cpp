@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The only list of techniques: a line here gives the CLI value, its settings, the shared test suite
 // and the benchmark of whole frames.
+#include "host/visibility/essm.h"
+#include "host/visibility/mvr.h"
+#include "host/visibility/mvss.h"
 #include "host/visibility/none.h"
+#include "host/visibility/pcss.h"
 #include "host/visibility/raytrace.h"
 #include "host/visibility/technique.h"
 #include "host/visibility/vwss.h"
@@ -26,6 +30,24 @@ const std::vector<TechniqueEntry>& techniques() {
          "triangles make "
          "many points; partial opacity blocks a share of the samples",
          describeSettings<VwssSettings>, Vwss::plannedBytes, make<Vwss>},
+        {"mvr",
+         "multi-view rasterisation: every triangle into a depth map per sample", "[VWSS] 2.1, 4",
+         "cost grows with triangles times samples; aliasing of the maps' texels; partial opacity "
+         "blocks a share of the samples",
+         describeSettings<MvrSettings>, Mvr::plannedBytes, make<Mvr>},
+        {"mvss", "as NVIDIA's sample: a few small maps at Poisson-disk samples, one bilinear tap each",
+         "[MVSS]",
+         "bands of 28 edges in wide penumbrae; acne or detached shadows where the fixed bias does "
+         "not suit the scene",
+         describeSettings<MvssSettings>, Mvss::plannedBytes, make<Mvss>},
+        {"pcss", "percentage-closer soft shadows: one map, blocker search, filter", "[VWSS] 4",
+         "occluder fusion (blockers of several depths), thin parts, light leaking where the centre "
+         "of the light sees no blocker",
+         describeSettings<PcssSettings>, Pcss::plannedBytes, make<Pcss>},
+        {"essm", "exponential soft shadow maps: one map of exponentials, filtered beforehand",
+         "[MLSM] 2, 8",
+         "occluder fusion, thin parts, light leaking behind near blockers, missing contact shadows",
+         describeSettings<EssmSettings>, Essm::plannedBytes, make<Essm>},
         {"raytrace",
          "the reference: one ray per light sample and pixel, opacity and colour along it", "",
          "none but the light samples' number", describeSettings<RaytraceSettings>,

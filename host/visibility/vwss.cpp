@@ -20,6 +20,11 @@ class Vwss::Source : public MapSource {
 
     void begin(const Inputs& inputs, LightView& view, Buffer<float>& samples,
                Buffer<shared::MultiViewCounters>& counters) override {
+        if (view.density < settings_.density * 0.999)
+            warnings.push_back(fmt::format(
+                "light '{}': the enlarged view is capped at {} pixels: density {:.2f} of {:.2f}; "
+                "use a smaller resolution or a larger near=",
+                inputs.light.name, view.params.enlarged, view.density, settings_.density));
         points_.adapt(inputs.mesh, view);
         mesh_ = &inputs.mesh;
         view_ = &view;
@@ -46,8 +51,9 @@ class Vwss::Source : public MapSource {
             views.viewCount = std::min(step, batch.viewCount - first);
             points_.runDirect(*mesh_, *view_, views, *samples_, *batch.maps32, *counters_);
         }
-        warp_.pack(*view_, batch);
     }
+
+    double density() const override { return settings_.density; }
 
     bool needsWideMaps() const override { return !settings_.buffered || warp_.needsWideMaps(); }
 
@@ -59,6 +65,8 @@ class Vwss::Source : public MapSource {
         const bool points = settings_.buffered && points_.grow(most);
         return points_.grewTiles() || points;
     }
+
+    std::vector<std::string> warnings;  ///< of the frame
 
   private:
     runtime::Device* device_;
@@ -75,7 +83,8 @@ class Vwss::Source : public MapSource {
 Vwss::Vwss(const TechniqueContext& context)
     : settings_(parseSettings<VwssSettings>("vwss", context.values)),
       program_(context.device, "multi_view"),
-      multiView_(context.device, settings_, context.width, context.height, program_),
+      multiView_(program_, settings_, context.width, context.height),
+      reader_(program_, {settings_.pcf, settings_, false}),
       source_(std::make_unique<Source>(context.device, settings_, program_)) {}
 
 std::uint64_t Vwss::plannedBytes(const TechniqueContext& context) {
@@ -87,14 +96,21 @@ std::uint64_t Vwss::plannedBytes(const TechniqueContext& context) {
 Vwss::~Vwss() = default;
 
 void Vwss::run(const Inputs& inputs, Visibility& visibility) {
-    multiView_.run(inputs, settings_.density, *source_, visibility);
+    multiView_.run(inputs, inputs.light, *source_, reader_, visibility);
 }
 
 bool Vwss::grew() {
     return source_->grew();
 }
 
+std::vector<std::string> Vwss::warnings() const {
+    auto all = multiView_.warnings();
+    all.insert(all.end(), source_->warnings.begin(), source_->warnings.end());
+    return all;
+}
+
 Counts Vwss::takeCounts() {
+    source_->warnings.clear();
     return multiView_.takeCounts();
 }
 

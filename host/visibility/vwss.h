@@ -3,7 +3,7 @@
 // warped into one depth map per light sample.
 #pragma once
 #include "host/visibility/depth_warp.h"
-#include "host/visibility/multi_view.h"
+#include "host/visibility/map_lookup.h"
 #include "host/visibility/points.h"
 
 namespace penumbra::visibility {
@@ -44,13 +44,14 @@ class Vwss : public Technique {
     bool grew() override;
     Counts takeCounts() override;
     std::vector<SettingRow> settings() const override { return settingsInForce(settings_); }
-    std::vector<std::string> warnings() const override { return multiView_.warnings(); }
+    std::vector<std::string> warnings() const override;
 
   private:
     class Source;
     VwssSettings settings_;
     runtime::Program program_;
     MultiView multiView_;
+    MapLookup reader_;
     std::unique_ptr<Source> source_;
 };
 

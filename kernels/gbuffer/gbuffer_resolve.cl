@@ -15,19 +15,17 @@ inline float3 interpolate3(global const float* values, uint v0, uint v1, uint v2
     return load3(values, v0) * b.x + load3(values, v1) * b.y + load3(values, v2) * b.z;
 }
 
-inline float4 unpackColour(uint rgba) {
-    return (float4)((float)(rgba & 255), (float)((rgba >> 8) & 255), (float)((rgba >> 16) & 255),
-                    (float)(rgba >> 24)) * (1.0f / 255.0f);
-}
-
-/// Tangent of a triangle from its uv gradient, for meshes that bring none.
+/// Tangent of a triangle from its uv gradient, for meshes that bring none. Its bitangent points up in the
+/// image, against v: glTF 2.0, 3.9.3.
 inline float3 triangleTangent(float3 p0, float3 p1, float3 p2, float4 uv0, float4 uv1, float4 uv2,
-                              const Texture* t, float* handedness) {
+                              const Texture* t, float3 normal, float* handedness) {
     const float2 a = textureTransform(t, uv0);
     const float2 d1 = textureTransform(t, uv1) - a, d2 = textureTransform(t, uv2) - a;
     const float determinant = d1.x * d2.y - d2.x * d1.y;
-    *handedness = determinant < 0.0f ? -1.0f : 1.0f;
+    // dP/du and -dP/dv, both times the determinant
     const float3 along = (p1 - p0) * d2.y - (p2 - p0) * d1.y;
+    const float3 up = (p1 - p0) * d2.x - (p2 - p0) * d1.x;
+    *handedness = dot(cross3(normal, along), up) < 0.0f ? -1.0f : 1.0f;
     return normalizeOr(determinant < 0.0f ? -along : along, (float3)(1.0f, 0.0f, 0.0f));
 }
 
@@ -85,7 +83,7 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
     float3 geometric = normalizeOr(cross3(p1 - p0, p2 - p0), (float3)(0.0f, 1.0f, 0.0f));
     if (dot(geometric, towardsEye) < 0.0f) geometric = -geometric;
     float3 normal = normalizeOr(interpolate3(normals, i0, i1, i2, b), geometric);
-    if (dot(normal, geometric) < 0.0f) normal = -normal;
+    const int back = dot(normal, geometric) < 0.0f;  // seen from behind: reversed, bumps included
 
     // Material
     global const Material* m = &materials[draw.material];
@@ -99,8 +97,9 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
                   unpackColour(colours[s2]) * b.z;
     if (draw.flags & DRAW_TEXTURED) {
         const float4 uv = readUvs(uvs, s0, s1, s2, b);
-        const float4 right = readUvs(uvs, s0, s1, s2, rasterBarycentrics(v, x + 1, y));
-        const float4 below = readUvs(uvs, s0, s1, s2, rasterBarycentrics(v, x, y + 1));
+        // Neighbours on the plane: clamped into a small triangle they would tell too small a footprint
+        const float4 right = readUvs(uvs, s0, s1, s2, rasterPlaneBarycentrics(v, x + 1, y));
+        const float4 below = readUvs(uvs, s0, s1, s2, rasterPlaneBarycentrics(v, x, y + 1));
         const Texture colour = m->baseColorTexture, glow = m->emissiveTexture;
         const Texture rough = m->metallicRoughnessTexture, bumps = m->normalTexture;
         if (colour.offset >= 0)
@@ -115,17 +114,18 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
         if (bumps.offset >= 0) {
             float3 tangent = (vload4(i0, tangents) * b.x + vload4(i1, tangents) * b.y +
                               vload4(i2, tangents) * b.z).xyz;
-            float handedness = tangents[4 * i0 + 3];
+            float handedness = draw.flags & DRAW_MIRRORED ? -tangents[4 * i0 + 3] : tangents[4 * i0 + 3];
             if (handedness == 0.0f)
                 tangent = triangleTangent(p0, p1, p2, vload4(s0, uvs), vload4(s1, uvs), vload4(s2, uvs),
-                                          &bumps, &handedness);
+                                          &bumps, normal, &handedness);
             normal = applyNormalMap(normal, tangent, handedness,
                                     textureRead(texels, &bumps, uv, textureLevel(&bumps, uv, right, below)),
                                     m->normalScale);
         }
     }
+    if (back) normal = -normal;
     if (draw.flags & DRAW_UNLIT) {
-        emissive += albedo.xyz;
+        emissive = albedo.xyz;  // KHR_materials_unlit: nothing of the lit model counts
         albedo = (float4)(0.0f);
         metallic = 0.0f;
     }

@@ -28,6 +28,7 @@ typedef uint VU;
 #define V_AS_INT as_int
 #define V_AS_FLOAT as_float
 #define V_TO_INT convert_int
+#define V_TO_INT_RTE convert_int_rte
 #define V_TO_FLOAT convert_float
 #define V_LOAD_HALF(p, i) vload_half(i, p)
 #else
@@ -44,6 +45,7 @@ typedef LANES_JOIN(uint, LANES) VU;
 #define V_AS_INT LANES_JOIN(as_int, LANES)
 #define V_AS_FLOAT LANES_JOIN(as_float, LANES)
 #define V_TO_INT LANES_JOIN(convert_int, LANES)
+#define V_TO_INT_RTE LANES_JOIN(LANES_JOIN(convert_int, LANES), _rte)
 #define V_TO_FLOAT LANES_JOIN(convert_float, LANES)
 #define V_LOAD_HALF(p, i) LANES_JOIN(vload_half, LANES)(0, (p) + (i))
 #if LANES == 8

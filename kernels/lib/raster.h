@@ -98,7 +98,8 @@ inline int rasterClip(RasterVertex* corners) {
     return count < 3 ? 0 : count;
 }
 
-inline RasterEdge rasterEdge(int xa, int ya, int xb, int yb) {
+/// conservative: the edge is moved outwards by half a pixel, so that every pixel it crosses is inside.
+inline RasterEdge rasterEdge(int xa, int ya, int xb, int yb, int conservative) {
     const int dx = xb - xa, dy = yb - ya;
     RasterEdge e;
     e.a = -dy;
@@ -106,8 +107,9 @@ inline RasterEdge rasterEdge(int xa, int ya, int xb, int yb) {
     // Value at the centre of pixel (0, 0); only edges at the top and left own their points
     const int midpoint = 1 << (RASTER_SUBPIXEL_BITS - 1);
     const long value = (long)dx * (midpoint - ya) - (long)dy * (midpoint - xa);
-    const int owns = dy < 0 || (dy == 0 && dx > 0);
-    e.c = (value - (owns ? 0 : 1)) >> RASTER_SUBPIXEL_BITS;
+    const int owns = conservative || dy < 0 || (dy == 0 && dx > 0);
+    const long widened = conservative ? ((long)abs(dx) + abs(dy)) * midpoint : 0;
+    e.c = (value + widened - (owns ? 0 : 1)) >> RASTER_SUBPIXEL_BITS;
     return e;
 }
 
@@ -135,7 +137,9 @@ inline int rasterSetup(const RasterView* view, uint flags, RasterVertex v0, Rast
 
     const int left = min(x0, min(x1, x2)), right = max(x0, max(x1, x2));
     const int top = min(y0, min(y1, y2)), bottom = max(y0, max(y1, y2));
-    const int midpoint = 1 << (RASTER_SUBPIXEL_BITS - 1), below = midpoint - 1;
+    // First and last pixel: by their centres, or by their whole squares
+    const int midpoint = view->conservative ? 0 : 1 << (RASTER_SUBPIXEL_BITS - 1);
+    const int below = view->conservative ? 0 : midpoint - 1;
     t->minX = max((left + below) >> RASTER_SUBPIXEL_BITS, 0);
     t->minY = max((top + below) >> RASTER_SUBPIXEL_BITS, 0);
     t->maxX = min((right - midpoint) >> RASTER_SUBPIXEL_BITS, view->width - 1);
@@ -143,9 +147,9 @@ inline int rasterSetup(const RasterView* view, uint flags, RasterVertex v0, Rast
     if (t->minX > t->maxX || t->minY > t->maxY) return 0;
     t->small = max(right - left, bottom - top) <= (RASTER_SMALL << RASTER_SUBPIXEL_BITS);
 
-    t->edge[0] = rasterEdge(x0, y0, x1, y1);
-    t->edge[1] = rasterEdge(x1, y1, x2, y2);
-    t->edge[2] = rasterEdge(x2, y2, x0, y0);
+    t->edge[0] = rasterEdge(x0, y0, x1, y1, view->conservative);
+    t->edge[1] = rasterEdge(x1, y1, x2, y2, view->conservative);
+    t->edge[2] = rasterEdge(x2, y2, x0, y0, view->conservative);
 
     const float inverse = scale * scale / (float)(area < 0 ? -area : area);
     const float ax = (float)(x1 - x0) / scale, ay = (float)(y1 - y0) / scale;
@@ -174,21 +178,44 @@ inline int rasterEdgeAt(RasterEdge e, int x, int y) {
     return (int)clamp(value, (long)-(1 << 30), (long)(1 << 30));
 }
 
-/// Perspective-correct barycentric coordinates at a pixel's centre, from vertices before clipping.
-/// Snapping may have put the centre slightly outside: clamped into the triangle.
-inline float3 rasterBarycentrics(const RasterVertex* v, int x, int y) {
+/// The edges' values at a tile's first pixel; 1 if one edge leaves out the tile as a whole.
+inline int rasterTileOutside(const RasterTriangle* t, int left, int top, int* base) {
+    int outside = 0;
+    for (int i = 0; i < 3; ++i) {
+        base[i] = rasterEdgeAt(t->edge[i], left, top);
+        const int reach = max(t->edge[i].a, 0) + max(t->edge[i].b, 0);
+        outside |= base[i] + (RASTER_TILE - 1) * reach < 0;
+    }
+    return outside;
+}
+
+/// Perspective-correct barycentric coordinates at a pixel's centre, up to a factor.
+inline float3 rasterWeights(const RasterVertex* v, int x, int y) {
     const float px = (float)x + 0.5f, py = (float)y + 0.5f;
     float sx[3], sy[3];
     for (int i = 0; i < 3; ++i) {
         sx[i] = fma(-px, v[i].w, v[i].x);
         sy[i] = fma(-py, v[i].w, v[i].y);
     }
-    float3 b = (float3)(sx[1] * sy[2] - sx[2] * sy[1], sx[2] * sy[0] - sx[0] * sy[2],
-                        sx[0] * sy[1] - sx[1] * sy[0]);
+    return (float3)(sx[1] * sy[2] - sx[2] * sy[1], sx[2] * sy[0] - sx[0] * sy[2],
+                    sx[0] * sy[1] - sx[1] * sy[0]);
+}
+
+/// Perspective-correct barycentric coordinates at a pixel's centre, from vertices before clipping.
+/// Snapping may have put the centre slightly outside: clamped into the triangle.
+inline float3 rasterBarycentrics(const RasterVertex* v, int x, int y) {
+    float3 b = rasterWeights(v, x, y);
     if (b.x + b.y + b.z < 0.0f) b = -b;
     b = max(b, (float3)(0.0f));
     const float sum = b.x + b.y + b.z;
     return sum > 0.0f ? b / sum : (float3)(1.0f, 0.0f, 0.0f);
+}
+
+/// The same on the triangle's plane, also outside of the triangle; not finite where a pixel sees the plane
+/// edge-on.
+inline float3 rasterPlaneBarycentrics(const RasterVertex* v, int x, int y) {
+    const float3 b = rasterWeights(v, x, y);
+    return b / (b.x + b.y + b.z);
 }
 
 #endif

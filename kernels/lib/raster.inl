@@ -7,6 +7,7 @@
 //   RASTER_FRAGMENT     statements per fragment; they see x, y, depth, triangle, draw, v (vertices
 //                       before clipping) and the kernel's parameters
 //   RASTER_END          statements at a work-item's end
+//   RASTER_VERTICES     (optional) statements that fill v[3]; default: `view` applied to positions
 //
 //   triangles --small--> fragments
 //             --large--> list of (triangle, tile) --one work-group each--> fragments
@@ -19,6 +20,9 @@
 #else
 #define RASTER_CHUNK 1
 #endif
+
+#define RASTER_VERTICES_OF_VIEW \
+    for (int i = 0; i < 3; ++i) v[i] = rasterVertex(&view, positions, indices[3 * triangle + i]);
 
 inline void rasterAppendTiles(const RasterView* view, global uint* tileCount, global RasterTile* tiles,
                               const RasterTriangle* t, uint triangle, uint part) {
@@ -34,6 +38,9 @@ inline void rasterAppendTiles(const RasterView* view, global uint* tileCount, gl
         }
 }
 #endif
+#ifndef RASTER_VERTICES
+#define RASTER_VERTICES RASTER_VERTICES_OF_VIEW
+#endif
 
 /// One work-item per RASTER_CHUNK triangles: draws the small ones, lists the tiles of the others.
 kernel void RASTER_KERNEL(const RasterView view, global const float* restrict positions,
@@ -48,7 +55,7 @@ kernel void RASTER_KERNEL(const RasterView view, global const float* restrict po
         const Draw draw = draws[drawIndex];
         if ((draw.flags & view.requireFlags) != view.requireFlags) continue;
         RasterVertex v[3];
-        for (int i = 0; i < 3; ++i) v[i] = rasterVertex(&view, positions, indices[3 * triangle + i]);
+        RASTER_VERTICES
         const int kind = rasterClassify(&view, v);
         if (kind == RASTER_REJECT) continue;
         RasterTriangle t;
@@ -103,8 +110,8 @@ kernel void RASTER_KERNEL_LARGE(const RasterView view, global const float* restr
         const uint drawIndex = triangleDraw[triangle];
         const Draw draw = draws[drawIndex];
         RasterVertex v[3], corners[RASTER_MAX_CORNERS];
-        for (int i = 0; i < 3; ++i)
-            corners[i] = v[i] = rasterVertex(&view, positions, indices[3 * triangle + i]);
+        RASTER_VERTICES
+        for (int i = 0; i < 3; ++i) corners[i] = v[i];
         if (rasterClassify(&view, v) == RASTER_CLIP) rasterClip(corners);
         RasterTriangle t;
         if (!rasterSetup(&view, draw.flags, corners[0], corners[part + 1], corners[part + 2], &t))
@@ -112,14 +119,8 @@ kernel void RASTER_KERNEL_LARGE(const RasterView view, global const float* restr
         const int left = (int)(tile % 512) * RASTER_TILE, top = (int)(tile / 512) * RASTER_TILE;
         const int minX = max(left, t.minX), maxX = min(left + RASTER_TILE - 1, t.maxX);
         const int minY = max(top, t.minY), maxY = min(top + RASTER_TILE - 1, t.maxY);
-        // Skip tiles that one edge leaves out as a whole
-        int base[3], outside = 0;
-        for (int i = 0; i < 3; ++i) {
-            base[i] = rasterEdgeAt(t.edge[i], left, top);
-            const int reach = max(t.edge[i].a, 0) + max(t.edge[i].b, 0);
-            outside |= base[i] + (RASTER_TILE - 1) * reach < 0;
-        }
-        if (outside) continue;
+        int base[3];
+        if (rasterTileOutside(&t, left, top, base)) continue;
         RASTER_TRIANGLE
         const int step = (int)get_local_size(0), first = minX + (int)get_local_id(0);
         for (int y = minY; y <= maxY; ++y) {
@@ -147,3 +148,4 @@ kernel void RASTER_KERNEL_LARGE(const RasterView view, global const float* restr
 #undef RASTER_TRIANGLE
 #undef RASTER_FRAGMENT
 #undef RASTER_END
+#undef RASTER_VERTICES

@@ -71,10 +71,16 @@ inline float4 readUvs(global const float* restrict uvs, int v0, int v1, int v2, 
     return vload4(v0, uvs) * b.x + vload4(v1, uvs) * b.y + vload4(v2, uvs) * b.z;
 }
 
-/// Alpha of a surface point at texture level 0: factor x texture x vertex colour.
+inline float4 unpackColour(uint rgba) {
+    return (float4)((float)(rgba & 255), (float)((rgba >> 8) & 255), (float)((rgba >> 16) & 255),
+                    (float)(rgba >> 24)) * (1.0f / 255.0f);
+}
+
+/// Alpha of a surface point at texture level 0: factor x texture x vertex colour; 1 where it is ignored.
 inline float surfaceAlpha(const Draw* draw, global const Material* material, global const uint* indices,
                           global const float* restrict uvs, global const uint* restrict colours,
                           global const uint* restrict texels, uint triangle, float3 b) {
+    if (material->flags & MATERIAL_OPAQUE) return 1.0f;
     const int v0 = (int)indices[3 * triangle] + draw->sourceOffset;
     const int v1 = (int)indices[3 * triangle + 1] + draw->sourceOffset;
     const int v2 = (int)indices[3 * triangle + 2] + draw->sourceOffset;

@@ -2,10 +2,12 @@
 // Shading: reflectance x visibility of one light after the other.
 //   G-buffer, visibility --closed-form irradiance, GGX over 16 light points--> colour
 // Source: Lambert 1760 (irradiance of a polygon); Walter et al. 2007 (GGX) as in glTF 2.0 appendix B.
-// Differs: a reflection integrates 16 fixed points of the light, so roughness is at least SHADE_MIN_ROUGHNESS.
+// Differs: a reflection integrates 16 fixed points of the light, so roughness is at least SHADE_MIN_ROUGHNESS;
+// the diffuse part keeps what the Fresnel term reflects (glTF weighs it by 1 - F).
 #include "lib/area_light.h"
 #include "lib/transform.h"
 #include "shared/gbuffer.h"
+#include "shared/mesh.h"
 
 #define SHADE_MIN_ROUGHNESS 0.2f
 
@@ -128,7 +130,9 @@ kernel void shade_light(const ShadeParams params, const ShadeLight light,
     const VF cone = coneFalloff(&light, s.position);
     const VF diffuse = irradiance * 0.31830989f * (1.0f - metallic) * cone;
     const VF lit = V_SELECT((VF)0.0f, (VF)1.0f, V_MASK(covered) & faces);
-    const VF white = V_SELECT((VF)0.0f, cone, V_MASK(albedo.x + albedo.y + albedo.z > 0.0f));
+    // Unlit surfaces reflect nothing; black ones do
+    const VI unlit = V_AS_INT(V_LOAD(planes, GB_FLAGS * stride + pixel)) & (VI)DRAW_UNLIT;
+    const VF white = V_SELECT(cone, (VF)0.0f, V_MASK(unlit != 0));
     const VF albedos[3] = {albedo.x, albedo.y, albedo.z};
     const float radiances[3] = {light.radiance.x, light.radiance.y, light.radiance.z};
     for (int channel = 0; channel < 3; ++channel) {

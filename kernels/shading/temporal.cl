@@ -2,7 +2,8 @@
 // Averages visibility over a window of frames, following surfaces through their motion.
 //   history of the last frame --where each pixel's surface was--> history of this frame --mean--> visibility
 // Source: [VWSS] 5 names temporal averaging as future work (Scherzer et al. 2009); the fixed window, which
-// makes a frame independent of all but the K - 1 before it, is ours.
+// makes a frame independent of all but the K - 1 before it, is ours. History is clamped to the frame's neighbourhood
+// against ghosts (Karis, High Quality Temporal Supersampling, 2014).
 #include "lib/transform.h"
 #include "shared/gbuffer.h"
 #include "shared/multi_view.h"
@@ -28,12 +29,37 @@ inline int previousPixel(const TemporalParams* t, global const float* restrict p
     return same ? last : -1;
 }
 
+/// One work-item per pixel: the frame's own visibility becomes age 0 of its history, NONE where nothing was tested.
+kernel void temporal_begin(const TemporalParams params, global const uint* restrict state,
+                           global const float* restrict visibility, global float* restrict newHistory) {
+    const int pixel = get_global_id(0), stride = params.planeStride;
+    if (pixel >= stride) return;
+    for (int channel = 0; channel < params.channels; ++channel)
+        newHistory[channel * stride + pixel] =
+            state[pixel] == STATE_TESTED ? visibility[channel * stride + pixel] : TEMPORAL_NONE;
+}
+
+/// Least and largest visibility of this frame over the pixels tested among 3 x 3: what lies outside is a ghost.
+inline float2 neighbourhood(const TemporalParams* t, global const float* now, int pixel) {
+    const int x = pixel % t->width, y = pixel / t->width;
+    float2 range = (float2)(now[pixel], now[pixel]);
+    for (int row = max(y - 1, 0); row <= min(y + 1, t->height - 1); ++row)
+        for (int column = max(x - 1, 0); column <= min(x + 1, t->width - 1); ++column) {
+            const float value = now[row * t->width + column];
+            if (value < 0.0f) continue;
+            range.x = min(range.x, value);
+            range.y = max(range.y, value);
+        }
+    return range;
+}
+
 /// One work-item per pixel. history [age, channel, stride]: oldHistory of the last frame, newHistory of this
-/// one; age 0 is the last frame's visibility. visibility [channel, stride] becomes the mean.
+/// one, whose age 0 temporal_begin wrote. visibility [channel, stride] becomes the mean; history is kept as it was and
+/// clamped to the neighbourhood only there, so that a mean depends on nothing but the frames of its window.
 kernel void temporal(const TemporalParams params, global const float* restrict planes,
                      global const float* restrict lastDepth, global const uint* restrict lastObject,
                      global const uint* restrict state, global const float* restrict oldHistory,
-                     global float* restrict newHistory, global float* restrict visibility) {
+                     global float* newHistory, global float* restrict visibility) {
     const int pixel = get_global_id(0), stride = params.planeStride;
     if (pixel >= stride) return;
     const int tested = state[pixel] == STATE_TESTED;
@@ -44,7 +70,7 @@ kernel void temporal(const TemporalParams params, global const float* restrict p
         const float now = visibility[channel * stride + pixel];
         float sum = now;
         int count = 1;
-        newHistory[channel * stride + pixel] = tested ? now : TEMPORAL_NONE;
+        const float2 range = last >= 0 ? neighbourhood(&params, newHistory + channel * stride, pixel) : (float2)(0.0f);
         for (int age = 0; age < params.ages; ++age) {
             const float value = last >= 0 && age < params.valid
                                     ? oldHistory[(age * params.channels + channel) * stride + last]
@@ -52,7 +78,7 @@ kernel void temporal(const TemporalParams params, global const float* restrict p
             if (age + 1 < params.ages)
                 newHistory[((age + 1) * params.channels + channel) * stride + pixel] = value;
             if (value < 0.0f) continue;
-            sum += value;
+            sum += clamp(value, range.x, range.y);
             ++count;
         }
         if (tested) visibility[channel * stride + pixel] = sum / (float)count;

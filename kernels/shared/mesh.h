@@ -25,6 +25,9 @@ SHARED_BEGIN
 #define DRAW_TEXTURED 512u     // the material reads a texture
 #define DRAW_ANY 0x80000000u   // set in every draw
 
+// Flags of a material
+#define MATERIAL_OPAQUE 1u     // alphaMode OPAQUE: alpha is ignored
+
 /// One primitive of one node.
 typedef struct {
     uint flags;     ///< DRAW_*
@@ -63,7 +66,7 @@ typedef struct {
     float4 emissive;    ///< linear RGB
     float metallic, roughness, normalScale, alphaCutoff;
     float transmission;
-    uint flags;
+    uint flags;  ///< MATERIAL_*
     int unused[2];
 } Material;
 SHARED_STRUCT(Material, 256)

@@ -62,8 +62,10 @@ typedef struct {
     float constantTexels;  ///< bias in texel footprints
     float constantMetres;
     float quantum;         ///< depth step of the maps: 0 for 32 bits
+    int flat;              ///< 1: taps compare with the receiver's depth, not with its plane's
+    int unused[3];
 } LookupParams;
-SHARED_STRUCT(LookupParams, 32)
+SHARED_STRUCT(LookupParams, 48)
 
 typedef struct {
     int width, height, planeStride;

@@ -22,8 +22,10 @@ typedef struct {
     uint cullFront;      ///< front faces of draws with any of these flags are dropped
     uint frontIsClockwise;  ///< 1: front faces turn clockwise on the screen
     uint tileCapacity;   ///< entries that the list of large triangles' tiles holds
+    int conservative;    ///< 1: all pixels that a triangle touches, not those whose centre it holds
+    int unused[3];
 } RasterView;
-SHARED_STRUCT(RasterView, 96)
+SHARED_STRUCT(RasterView, 112)
 
 /// A tile of a triangle that is too large to be done in one go.
 typedef struct {

@@ -24,7 +24,7 @@ inline PointLanes loadPoints(const MultiViewParams* p, uint first, global const 
         lanes.b = V_LOAD_HALF(halves, c + first) + p->centre;
         lanes.w = V_LOAD_HALF(halves, 2 * c + first);
     } else {
-        const float low = p->centre - 0.5f * (float)p->enlarged, step = (float)p->enlarged / 65535.0f;
+        const float extent = fixedExtent(p), low = p->centre - 0.5f * extent, step = extent / 65535.0f;
         lanes.a = V_TO_FLOAT(V_LOAD(points16, first)) * step + low;
         lanes.b = V_TO_FLOAT(V_LOAD(points16, c + first)) * step + low;
         lanes.w = V_TO_FLOAT(V_LOAD(points16, 2 * c + first)) * (1.0f / 65535.0f);
@@ -42,7 +42,7 @@ inline float3 loadPoint(const MultiViewParams* p, uint slot, global const float*
         return (float3)(vload_half(slot, halves) + p->centre, vload_half(c + slot, halves) + p->centre,
                         vload_half(2 * c + slot, halves));
     }
-    const float low = p->centre - 0.5f * (float)p->enlarged, step = (float)p->enlarged / 65535.0f;
+    const float extent = fixedExtent(p), low = p->centre - 0.5f * extent, step = extent / 65535.0f;
     return (float3)((float)points16[slot] * step + low, (float)points16[c + slot] * step + low,
                     (float)points16[2 * c + slot] * (1.0f / 65535.0f));
 }
@@ -68,10 +68,3 @@ kernel void depth_warp(const MultiViewParams params, const LookupParams views,
 #define OWNED_TEXEL ushort
 #define OWNED_KERNEL depth_warp_owned16
 #include "visibility/depth_warp_owned.inl"
-
-/// Packs 16-bit depths from the 32-bit texels that atomics need. One work-item per texel of all maps.
-kernel void depth_warp_pack(const uint count, global const uint* restrict wide,
-                            global ushort* restrict maps) {
-    const uint texel = get_global_id(0);
-    if (texel < count) maps[texel] = (ushort)wide[texel];
-}

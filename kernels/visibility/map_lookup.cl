@@ -51,6 +51,12 @@ kernel void receivers(const ReceiverParams image, const MultiViewParams params,
     }
 }
 
+/// Packs 16-bit depths from the 32-bit texels that atomics need. One work-item per texel of all maps.
+kernel void map_pack(const uint count, global const uint* restrict wide, global ushort* restrict maps) {
+    const uint texel = get_global_id(0);
+    if (texel < count) maps[texel] = (ushort)wide[texel];
+}
+
 #define LOOKUP_KERNEL map_lookup
 #define LOOKUP_TEXEL uint
 #define LOOKUP_DEPTH(bits) V_AS_FLOAT(bits)

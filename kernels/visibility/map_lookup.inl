@@ -39,7 +39,7 @@ kernel void LOOKUP_KERNEL(const MultiViewParams params, const LookupParams looku
         const VF e = facing + gradientX * kx + gradientY * ky;
         const VI above = V_MASK(e > 0.0f);
         // Depth of the receiver's plane at the first tap's centre, and its step per texel
-        const VF inverse = -1.0f / V_SELECT((VF)1.0f, e, above);
+        const VF inverse = lookup.flat ? (VF)0.0f : -1.0f / V_SELECT((VF)1.0f, e, above);
         const VF stepX = gradientX * inverse, stepY = gradientY * inverse;
         const VF column0 = floor(clamp(u, (VF)-4.0f, (VF)(float)(size + 4)));
         const VF row0 = floor(clamp(v, (VF)-4.0f, (VF)(float)(size + 4)));

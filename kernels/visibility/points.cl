@@ -6,9 +6,9 @@
 // Differs: points are kept as (a, b, w) of shared/multi_view.h instead of world positions, so that a view
 // costs two multiply-adds; fragments go through a work-item's own buffer, one global atomic a flush.
 #include "lib/atomics.h"
+#include "lib/caster_opacity.h"
 #include "lib/opacity.h"
 #include "lib/raster.h"
-#include "lib/texture.h"
 #include "shared/multi_view.h"
 
 #ifndef POINT_BUFFER  // points that a work-item keeps before it appends them all; 1: an atomic per fragment
@@ -19,23 +19,6 @@
 #endif
 #endif
 
-#define POINT_ALPHA_PARAMETERS                                                      \
-    , global const Material* restrict materials, global const float* restrict uvs,  \
-        global const uint* restrict colours, global const uint* restrict texels
-
-/// Opacity of a fragment: 0 where the alpha test fails.
-inline float pointOpacity(const Draw* draw, global const Material* materials,
-                          global const uint* indices, global const float* restrict uvs,
-                          global const uint* restrict colours, global const uint* restrict texels,
-                          uint triangle, const RasterVertex* v, int x, int y) {
-    if (!(draw->flags & (DRAW_MASK | DRAW_BLEND))) return 1.0f;
-    global const Material* material = &materials[draw->material];
-    const float alpha = surfaceAlpha(draw, material, indices, uvs, colours, texels, triangle,
-                                     rasterBarycentrics(v, x, y));
-    if (draw->flags & DRAW_MASK) return alpha >= material->alphaCutoff ? 1.0f : 0.0f;
-    return alpha * (1.0f - material->transmission);
-}
-
 /// A fragment of the enlarged view as (a, b, w).
 inline float3 pointOf(const MultiViewParams* p, int x, int y, float depth) {
     const float fromEye = (p->nearClip + p->setBack) / depth;
@@ -44,6 +27,12 @@ inline float3 pointOf(const MultiViewParams* p, int x, int y, float depth) {
     const float half_ = 0.5f * (float)p->enlarged;
     return (float3)(fma((float)x + 0.5f - half_, ratio, p->centre),
                     fma((float)y + 0.5f - half_, ratio, p->centre), p->near / z);
+}
+
+/// Texels that the views span together, about the centre: what fixed-point coordinates range over. At
+/// density 1 this is the enlarged view's size, but points lie as far out at any other density.
+inline float fixedExtent(const MultiViewParams* p) {
+    return (float)p->resolution * (1.0f + p->setBack / p->near);
 }
 
 inline ushort pointToFixed(float value, float low, float extent) {
@@ -65,7 +54,7 @@ inline void storePoint(const MultiViewParams* p, uint slot, float3 point, global
         vstore_half_rte(point.y - p->centre, c + slot, halves);
         vstore_half_rte(point.z, 2 * c + slot, halves);
     } else {
-        const float low = p->centre - 0.5f * (float)p->enlarged, extent = (float)p->enlarged;
+        const float extent = fixedExtent(p), low = p->centre - 0.5f * extent;
         points16[slot] = pointToFixed(point.x, low, extent);
         points16[c + slot] = pointToFixed(point.y, low, extent);
         points16[2 * c + slot] = pointToFixed(point.z, 0.0f, 1.0f);
@@ -75,7 +64,7 @@ inline void storePoint(const MultiViewParams* p, uint slot, float3 point, global
 #define RASTER_KERNEL points
 #define RASTER_KERNEL_LARGE points_large
 #define RASTER_PARAMETERS                                                                         \
-    POINT_ALPHA_PARAMETERS, const MultiViewParams params, global float *restrict points32,        \
+    CASTER_ALPHA_PARAMETERS, const MultiViewParams params, global float *restrict points32,        \
         global ushort *restrict points16, global uint *restrict keys,                             \
         volatile global MultiViewCounters *counters
 #define RASTER_BEGIN              \
@@ -94,8 +83,8 @@ inline void storePoint(const MultiViewParams* p, uint slot, float3 point, global
     }
 #define RASTER_TRIANGLE
 #define RASTER_FRAGMENT                                                                              \
-    const float opacity = pointOpacity(&draw, materials, indices, uvs, colours, texels, triangle, v, \
-                                       x, y);                                                        \
+    const float opacity = casterOpacity(&draw, materials, indices, uvs, colours, texels, triangle,   \
+                                        v, x, y);                                                    \
     if (opacity > 0.0f) {                                                                            \
         kept[pending] = pointOf(&params, x, y, depth);                                                 \
         nearCount += kept[pending].z > 1.0f;                                                           \
@@ -127,14 +116,14 @@ inline void splatPoint(const MultiViewParams* p, const LookupParams* views, floa
 #define RASTER_KERNEL points_direct
 #define RASTER_KERNEL_LARGE points_direct_large
 #define RASTER_PARAMETERS                                                                       \
-    POINT_ALPHA_PARAMETERS, const MultiViewParams params, const LookupParams lookup,            \
+    CASTER_ALPHA_PARAMETERS, const MultiViewParams params, const LookupParams lookup,            \
         global const float *restrict samples, volatile global uint *maps,                       \
         volatile global MultiViewCounters *counters
 #define RASTER_BEGIN uint pointCount = 0, nearCount = 0;
 #define RASTER_TRIANGLE
 #define RASTER_FRAGMENT                                                                              \
-    const float opacity = pointOpacity(&draw, materials, indices, uvs, colours, texels, triangle, v, \
-                                       x, y);                                                        \
+    const float opacity = casterOpacity(&draw, materials, indices, uvs, colours, texels, triangle,   \
+                                        v, x, y);                                                    \
     if (opacity > 0.0f) {                                                                            \
         const float3 point = pointOf(&params, x, y, depth);                                          \
         ++pointCount;                                                                                \

@@ -26,15 +26,52 @@ inline VF inverseOf(VF d) {
     return 1.0f / V_SELECT(d, tiny, V_MASK(fabs(d) < 1e-18f));
 }
 
-inline RayPacket packetTo(float3 origin, float3 normal, global const float* restrict samples, int first,
-                          int count) {
+/// The next number of a PCG hash per lane, in (0, 1).
+inline VF randomNext(VU* state) {
+    *state = *state * 747796405u + 2891336453u;
+    const VU word = ((*state >> ((*state >> 28) + 4u)) ^ *state) * 277803737u;
+    return fma(V_TO_FLOAT(V_AS_INT(((word >> 22) ^ word) >> 9)), (VF)(1.0f / 8388608.0f), (VF)(0.5f / 8388608.0f));
+}
+
+/// Random points of the light, of their own for each (pixel, sample, seed): in the square, or where that is a disk,
+/// rejected until inside; the last try is pulled in.
+inline void randomSamples(const RaytraceParams* p, int pixel, VI index, RayPacket* r) {
+    VU state = V_AS_UINT(index) * 0x9e3779b1u + (uint)pixel * 0x85ebca77u + as_uint(p->centre.w) * 0xc2b2ae3du;
+    randomNext(&state);
+    VF u = fma(randomNext(&state), (VF)2.0f, (VF)-1.0f), v = fma(randomNext(&state), (VF)2.0f, (VF)-1.0f);
+    for (int i = 0; i < 24 && p->shape == RAY_SAMPLES_DISK; ++i) {
+        const VI outside = V_MASK(fma(u, u, v * v) > 1.0f);
+        if (!V_ANY(outside)) break;
+        u = V_SELECT(u, fma(randomNext(&state), (VF)2.0f, (VF)-1.0f), outside);
+        v = V_SELECT(v, fma(randomNext(&state), (VF)2.0f, (VF)-1.0f), outside);
+    }
+    if (p->shape == RAY_SAMPLES_DISK) {
+        const VF shrink = 1.0f / sqrt(max(fma(u, u, v * v), (VF)1.0f));
+        u *= shrink;
+        v *= shrink;
+    }
+    r->x = fma(u, (VF)p->axisX.x, fma(v, (VF)p->axisY.x, (VF)p->centre.x));
+    r->y = fma(u, (VF)p->axisX.y, fma(v, (VF)p->axisY.y, (VF)p->centre.y));
+    r->z = fma(u, (VF)p->axisX.z, fma(v, (VF)p->axisY.z, (VF)p->centre.z));
+}
+
+inline RayPacket packetTo(const RaytraceParams* p, float3 origin, float3 normal, global const float* restrict samples,
+                          int pixel, int first) {
     RayPacket r;
+    const int count = p->samples;
     const VI index = V_INDEX + first;
     const VI inside = V_MASK(index < count);
     const VI clamped = V_SELECT((VI)0, index, inside);
-    r.x = V_GATHER_(VF, samples, clamped) - origin.x;
-    r.y = V_GATHER_(VF, samples, clamped + count) - origin.y;
-    r.z = V_GATHER_(VF, samples, clamped + 2 * count) - origin.z;
+    if (p->shape == RAY_SAMPLES_FIXED) {
+        r.x = V_GATHER_(VF, samples, clamped);
+        r.y = V_GATHER_(VF, samples, clamped + count);
+        r.z = V_GATHER_(VF, samples, clamped + 2 * count);
+    } else {
+        randomSamples(p, pixel, index, &r);
+    }
+    r.x -= origin.x;
+    r.y -= origin.y;
+    r.z -= origin.z;
     r.ix = inverseOf(r.x);
     r.iy = inverseOf(r.y);
     r.iz = inverseOf(r.z);
@@ -80,12 +117,13 @@ inline int surfaceLogs(const RaySurfaces* s, uint triangle, float3 b, int logs[3
     }
     float4 colour = m->baseColor;
     const Texture t = m->baseColorTexture;
-    if (t.offset >= 0) {
-        const int v0 = (int)s->indices[3 * triangle] + draw.sourceOffset;
-        const int v1 = (int)s->indices[3 * triangle + 1] + draw.sourceOffset;
-        const int v2 = (int)s->indices[3 * triangle + 2] + draw.sourceOffset;
-        colour *= textureRead(s->texels, &t, readUvs(s->uvs, v0, v1, v2, b), 0);
-    }
+    const int v0 = (int)s->indices[3 * triangle] + draw.sourceOffset;
+    const int v1 = (int)s->indices[3 * triangle + 1] + draw.sourceOffset;
+    const int v2 = (int)s->indices[3 * triangle + 2] + draw.sourceOffset;
+    if (t.offset >= 0) colour *= textureRead(s->texels, &t, readUvs(s->uvs, v0, v1, v2, b), 0);
+    if (draw.flags & DRAW_COLOURS)
+        colour *= unpackColour(s->colours[v0]) * b.x + unpackColour(s->colours[v1]) * b.y +
+                  unpackColour(s->colours[v2]) * b.z;
     const float colours[3] = {colour.x, colour.y, colour.z};
     for (int c = 0; c < 3; ++c) {
         const float blended = (1.0f - alpha) * (1.0f - alpha + alpha * colours[c]);
@@ -203,7 +241,7 @@ kernel void raytrace(const RaytraceParams params, const ReceiverParams image, co
     const RaySurfaces surfaces = {indices, triangleDraw, draws, materials, uvs, colours, texels};
     uint passed[3] = {0, 0, 0};
     for (int first = 0; first < params.samples; first += LANES) {
-        RayPacket packet = packetTo(receiver.origin, receiver.normal, samples, first, params.samples);
+        RayPacket packet = packetTo(&params, receiver.origin, receiver.normal, samples, pixel, first);
         tracePacket(&packet, receiver.origin, &bvh, nodes, leaves, leafTriangles, &surfaces);
         for (int c = 0; c < (params.mean ? 3 : params.channels); ++c) passed[c] += packetPassed(&packet, c);
     }

@@ -112,6 +112,98 @@ TEST(CommandTest, DiffComparesAndFailsBeyondItsLimits) {
     EXPECT_EQ(run("diff " + folder + "/a.exr " + folder + "/absent.exr").code, 1);
 }
 
+/// A frame of soft stripes, `shift` pixels to the right, at `brightness`, as EXR and PNG files.
+void writeStripes(const std::string& path, int shift, float brightness, double gain) {
+    Frame frame;
+    frame.width = 48;
+    frame.height = 32;
+    frame.exposure = gain;
+    frame.header = {{"gain", fmt::format("{}", gain)}};
+    Channel visibility{"visibility.key.R", {}, {}}, depth{"Z", {}, {}};
+    for (int i = 0; i < frame.width * frame.height; ++i) {
+        const auto wave = std::sin(0.3F * static_cast<float>(i % frame.width - shift));
+        const float value = 0.5F + 0.5F * wave;
+        for (const float c : {brightness * value, 0.5F * brightness, brightness, 1.0F})
+            frame.rgba.push_back(c);
+        visibility.values.push_back(value);
+        depth.values.push_back(value);
+    }
+    writePng(path + ".png", frame);
+    frame.channels = {depth};
+    writeExr(path + "-rgb.exr", frame);
+    frame.channels.push_back(visibility);
+    writeExr(path + ".exr", frame);
+}
+
+nlohmann::json diffJson(const std::string& arguments) {
+    const auto result = run("diff --json " + arguments);
+    EXPECT_EQ(result.code, 0) << arguments << result.errors;
+    return nlohmann::json::parse(result.output);
+}
+
+TEST(CommandTest, DiffTellsSsimAndFlipAndFailsBeyondTheirLimits) {
+    const auto folder = temporaryFolder("diff-seen");
+    writeStripes(folder + "/a", 0, 0.6F, 1);
+    writeStripes(folder + "/b", 3, 0.6F, 1);
+    for (const std::string end : {".exr ", "-rgb.exr ", ".png "}) {
+        const auto a = folder + "/a" + end, b = folder + "/b" + end;
+        const auto same = diffJson(a + a), other = diffJson(a + b);
+        EXPECT_EQ(same["ssim"], 1) << end;
+        EXPECT_EQ(same["flip"], 0) << end;
+        const double ssim = other["ssim"], flip = other["flip"];
+        EXPECT_LT(ssim, 0.95) << end;
+        EXPECT_GT(flip, 0.05) << end;
+        const auto code = [&](const char* option, double limit) {
+            return run("diff " + a + b + fmt::format("{} {:.12f}", option, limit)).code;
+        };
+        EXPECT_EQ(code("--fail-ssim", ssim - 1e-6), 0) << end;
+        EXPECT_EQ(code("--fail-ssim", ssim + 1e-6), 5) << end;
+        EXPECT_EQ(code("--fail-flip", flip + 1e-6), 0) << end;
+        EXPECT_EQ(code("--fail-flip", flip - 1e-6), 5) << end;
+    }
+    const auto far = diffJson(folder + "/a.png " + folder + "/b.png --pixels-per-degree 300");
+    EXPECT_LT(far["flip"], diffJson(folder + "/a.png " + folder + "/b.png")["flip"]);
+    const auto text = run("diff " + folder + "/a.png " + folder + "/b.png").output;
+    EXPECT_NE(text.find("ssim 0."), std::string::npos) << text;
+    EXPECT_NE(text.find("flip 0."), std::string::npos) << text;
+}
+
+TEST(CommandTest, DiffShowsColoursOfExrFilesAsPngFilesShowThem) {
+    const auto folder = temporaryFolder("diff-shown");
+    // Bright enough for the tone curve, and a gain that the header tells
+    writeStripes(folder + "/a", 0, 6, 0.25);
+    writeStripes(folder + "/b", 3, 6, 0.25);
+    const auto exr = diffJson(folder + "/a-rgb.exr " + folder + "/b-rgb.exr");
+    const auto png = diffJson(folder + "/a.png " + folder + "/b.png");
+    EXPECT_NEAR(exr["flip"].get<double>(), png["flip"].get<double>(), 0.003);
+    EXPECT_NEAR(exr["ssim"].get<double>(), png["ssim"].get<double>(), 0.003);
+    EXPECT_NE(exr["rmse"], png["rmse"]);
+    // The frame as a PNG file and as an EXR file differ by the rounding to bytes
+    EXPECT_LT(diffJson(folder + "/a-rgb.exr " + folder + "/a.png")["flip"], 0.01);
+}
+
+TEST(CommandTest, DiffHasNoSsimAndFlipOfWhatIsNoPicture) {
+    const auto folder = temporaryFolder("diff-depth");
+    writeStripes(folder + "/a", 0, 0.6F, 1);
+    const auto files = folder + "/a.exr " + folder + "/a.exr --layer Z ";
+    EXPECT_TRUE(diffJson(files)["flip"].is_null());
+    EXPECT_TRUE(diffJson(files)["ssim"].is_null());
+    EXPECT_EQ(run("diff " + files + "--fail-rmse 1").code, 0);
+    for (const char* limit : {"--fail-flip 1", "--fail-ssim 0"}) {
+        const auto result = run("diff " + files + limit);
+        EXPECT_EQ(result.code, 2);
+        EXPECT_NE(result.errors.find("'Z' is no picture"), std::string::npos) << result.errors;
+    }
+}
+
+TEST(CommandTest, RenderedFilesTellTheGainThatDiffShowsThemWith) {
+    const auto folder = temporaryFolder("gain");
+    ASSERT_EQ(run(kSmall + "--exposure -2 -o " + folder + "/a.exr").code, 0);
+    const auto image = image::readImage(folder + "/a.exr");
+    std::map<std::string, std::string> header(image.header.begin(), image.header.end());
+    EXPECT_EQ(header["penumbra.gain"], "0.25");
+}
+
 TEST(CommandTest, ConfigurationFilesHoldOptionsAndTheCommandLineWins) {
     const auto folder = temporaryFolder("config");
     std::ofstream(folder + "/c.toml")
@@ -246,7 +338,10 @@ INSTANTIATE_TEST_SUITE_P(
                     BadUse{"render -o OUT/a.png --camera absent", 2, "allowed: auto"},
                     BadUse{"render -o OUT/a.png --device absent", 3, "no OpenCL device matches"},
                     BadUse{"render -o OUT/a.png --memory 20", 4, "out of memory"},
-                    BadUse{"render -o /proc/penumbra/a.png", 1, "cannot be made"}));
+                    BadUse{"render -o /proc/penumbra/a.png", 1, "cannot be made"},
+                    BadUse{"diff a.png b.png --fail-flip nan", 2, "outside of 0 to 1"},
+                    BadUse{"diff a.png b.png --fail-ssim 1.5", 2, "outside of -1 to 1"},
+                    BadUse{"diff a.png b.png --pixels-per-degree 0", 2, "outside of 1 to 1000"}));
 
 }  // namespace
 }  // namespace penumbra::tests

@@ -18,21 +18,6 @@ using runtime::Buffer;
 using runtime::Kernel;
 using U32 = std::uint32_t;
 
-TEST(ProgramTest, TheDeviceUnderTestPassesItsSelfTest) {
-    EXPECT_NO_THROW(runtime::selfTest(program("frame")));
-}
-
-TEST(ProgramTest, ADeviceThatFailsTheSelfTestIsRefusedWithTheReason) {
-    const runtime::Program broken(device(), "frame", {"SELF_TEST_BROKEN"});
-    try {
-        runtime::selfTest(broken);
-        FAIL() << "it passes";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::noDevice);
-        EXPECT_NE(std::string(error.what()).find("32-bit atomic increment"), std::string::npos);
-    }
-}
-
 TEST(ProgramTest, AnUnknownProgramIsNamed) {
     EXPECT_THROW(runtime::Program(device(), "absent"), Error);
 }

@@ -11,6 +11,7 @@
 #include "host/pipeline.h"
 #include "kernels/shared/gbuffer.h"
 #include "tests/reference/irradiance_ref.h"
+#include "tests/reference/shade_ref.h"
 #include "tests/support/fixtures.h"
 
 namespace penumbra::tests {
@@ -20,40 +21,72 @@ struct Receiver {
     glm::dvec3 point, normal;
 };
 
+void setPlane3(std::vector<float>& planes, std::size_t stride, int plane, std::size_t pixel,
+               const glm::dvec3& value) {
+    for (int axis = 0; axis < 3; ++axis)
+        planes[static_cast<std::size_t>(plane + axis) * stride + pixel] =
+            static_cast<float>(value[axis]);
+}
+
 /// A G-buffer of hand-made pixels; one row.
-gbuffer::GBuffer gbufferOf(const std::vector<Receiver>& receivers, float albedo) {
-    const std::size_t stride = (receivers.size() + GB_PAD - 1) / GB_PAD * GB_PAD;
+gbuffer::GBuffer gbufferOf(const std::vector<ShadePixel>& pixels) {
+    const std::size_t stride = (pixels.size() + GB_PAD - 1) / GB_PAD * GB_PAD;
     std::vector<float> planes(GB_PLANES * stride, 0.0F);
-    for (std::size_t i = 0; i < receivers.size(); ++i) {
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto at = static_cast<std::size_t>(axis) * stride + i;
-            planes[GB_POSITION * stride + at] = static_cast<float>(receivers[i].point[axis]);
-            planes[GB_GEOMETRIC * stride + at] = static_cast<float>(receivers[i].normal[axis]);
-            planes[GB_NORMAL * stride + at] = static_cast<float>(receivers[i].normal[axis]);
-            planes[GB_ALBEDO * stride + at] = albedo;
-        }
-        planes[GB_ROUGHNESS * stride + i] = 1;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const ShadePixel& p = pixels[i];
+        setPlane3(planes, stride, GB_POSITION, i, p.position);
+        setPlane3(planes, stride, GB_GEOMETRIC, i, p.geometric);
+        setPlane3(planes, stride, GB_NORMAL, i, p.normal);
+        setPlane3(planes, stride, GB_ALBEDO, i, p.albedo);
+        setPlane3(planes, stride, GB_EMISSIVE, i, p.emissive);
+        planes[GB_METALLIC * stride + i] = static_cast<float>(p.metallic);
+        planes[GB_ROUGHNESS * stride + i] = static_cast<float>(p.roughness);
         planes[GB_OBJECT * stride + i] = std::bit_cast<float>(1U);
+        planes[GB_FLAGS * stride + i] = std::bit_cast<float>(p.unlit ? DRAW_UNLIT : 0U);
     }
     gbuffer::GBuffer result;
-    result.width = static_cast<int>(receivers.size());
+    result.width = static_cast<int>(pixels.size());
     result.height = 1;
     result.planeStride = static_cast<int>(stride);
     result.planes = runtime::Buffer<float>(device(), "G-buffer", planes);
     return result;
 }
 
+/// What shading gives per pixel. `visibility` [pixel] per channel; `eye`: the camera's place.
+std::vector<glm::dvec3> shadePixels(const std::vector<ShadePixel>& pixels,
+                                    const scene::AreaLight& light, const glm::dvec3& eye,
+                                    const glm::dvec3& ambient, int channels,
+                                    const std::vector<glm::dvec3>& visibility) {
+    const auto gbuffer = gbufferOf(pixels);
+    const auto stride = static_cast<std::size_t>(gbuffer.planeStride);
+    shading::Shade shade(program("frame"), gbuffer.width, gbuffer.height);
+    std::vector<float> planes(static_cast<std::size_t>(channels) * stride, 1.0F);
+    for (std::size_t i = 0; i < visibility.size(); ++i)
+        for (int c = 0; c < channels; ++c)
+            planes[static_cast<std::size_t>(c) * stride + i] = static_cast<float>(visibility[i][c]);
+    visibility::Visibility seen;
+    seen.channels = channels;
+    seen.planes = runtime::Buffer<float>(device(), "visibility", planes);
+    scene::CameraFrame camera;
+    camera.worldFromCamera[3] = glm::dvec4(eye, 1);
+    shade.begin(gbuffer, ambient);
+    shade.add(gbuffer, light, seen, camera, glm::dvec3(0));
+    const auto colour = shade.colour().download();
+    std::vector<glm::dvec3> result;
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        result.emplace_back(colour[i], colour[stride + i], colour[2 * stride + i]);
+    return result;
+}
+
 std::vector<float> shadeOnce(const std::vector<Receiver>& receivers, const scene::AreaLight& light,
                              float albedo) {
-    const auto gbuffer = gbufferOf(receivers, albedo);
-    shading::Shade shade(program("frame"), gbuffer.width, gbuffer.height);
-    visibility::Visibility visibility;
-    visibility.planes = runtime::Buffer<float>(
-        device(), "visibility",
-        std::vector<float>(static_cast<std::size_t>(gbuffer.planeStride), 1.0F));
-    shade.begin(gbuffer, glm::dvec3(0));
-    shade.add(gbuffer, light, visibility, scene::CameraFrame(), glm::dvec3(0));
-    return shade.colour().download();
+    std::vector<ShadePixel> pixels;
+    for (const auto& r : receivers)
+        pixels.push_back({r.point, r.normal, r.normal, glm::dvec3(albedo)});
+    std::vector<float> red;
+    for (const auto& colour : shadePixels(pixels, light, {0, 0, 0}, {0, 0, 0}, 1, {}))
+        red.push_back(static_cast<float>(colour.x));
+    return red;
 }
 
 /// Irradiance for radiance 1: reflections do not depend on the albedo of a dielectric, so two
@@ -151,6 +184,150 @@ TEST(Shade, BehindTheLightAndFacingAwayNothingArrives) {
         receivers.push_back({light.centre + 3.0 * light.axisZ + aside, light.axisZ});
     }
     for (const double value : irradiance(receivers, light)) EXPECT_NEAR(value, 0, 1e-6);
+}
+
+const glm::dvec3 kEye(0.7, 0.4, 2.1);
+
+/// Random materials on receivers that the eye sees; normals are smoothed by up to 20 degrees.
+std::vector<ShadePixel> pixelsOf(const scene::AreaLight& light, int count) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<ShadePixel> pixels;
+    while (pixels.size() < static_cast<std::size_t>(count)) {
+        ShadePixel p;
+        p.position = light.centre + (4 * unit(random) - 2) * light.axisX +
+                     (4 * unit(random) - 2) * light.axisY + (0.3 + 3 * unit(random)) * light.axisZ;
+        const glm::dvec3 view = glm::normalize(kEye - p.position);
+        // A third of the pixels lies near the mirror direction, where the lobe is high
+        const auto half = glm::normalize(view + glm::normalize(light.centre - p.position));
+        p.geometric = pixels.size() % 3 ? randomDirection(random)
+                                        : glm::normalize(half + 0.1 * randomDirection(random));
+        p.normal = glm::normalize(p.geometric + 0.35 * unit(random) * randomDirection(random));
+        p.albedo = {unit(random), unit(random), unit(random)};
+        p.roughness = unit(random);
+        p.metallic = 1;
+        if (glm::dot(p.geometric, view) > 0 && glm::dot(p.normal, view) > 0.02) pixels.push_back(p);
+    }
+    return pixels;
+}
+
+/// Float loses up to 1e-3 of a narrow lobe (1 - cos^2 against alpha^2 = 0.0016) and of Lambert's
+/// sum (see above); a wrong power, factor or frame costs 10 % and more in most pixels.
+void expectColours(const std::vector<glm::dvec3>& values, const std::vector<glm::dvec3>& expected,
+                   double relative, double absolute) {
+    double brightest = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            brightest = std::max(brightest, expected[i][c]);
+            EXPECT_NEAR(values[i][c], expected[i][c], relative * expected[i][c] + absolute)
+                << "pixel " << i << " channel " << c;
+        }
+    EXPECT_GT(brightest, 1000 * absolute);
+}
+
+TEST(Shade, ReflectionsAreGgxOverTheSixteenPoints) {
+    for (const bool disk : {false, true})
+        for (const glm::dvec2 size : {glm::dvec2(1, 1), glm::dvec2(0.3, 0.3)}) {
+            auto light = makeLight(disk, size.x, disk ? size.x : 0.6 * size.y);
+            light.radiance = {20, 10, 30};
+            const auto pixels = pixelsOf(light, 203);
+            std::vector<glm::dvec3> expected;
+            for (const auto& p : pixels) {
+                const bool lit =
+                    shadeReference(light, p, kEye - p.position, glm::dvec3(1)) != glm::dvec3(0);
+                expected.push_back(lit ? reflectionReference(light, p, kEye - p.position)
+                                       : glm::dvec3(0));
+            }
+            expectColours(shadePixels(pixels, light, kEye, {0, 0, 0}, 1, {}), expected, 3e-3, 2e-4);
+        }
+}
+
+TEST(Shade, ColourIsEmissionAmbientAndReflectanceTimesVisibility) {
+    for (const int channels : {1, 3})
+        for (const double outer : {0.0, 0.5}) {
+            auto light = makeLight(false, 1, 0.6);
+            light.radiance = {5, 4, 3};
+            light.innerConeRad = 0.3;
+            light.outerConeRad = outer;
+            auto pixels = pixelsOf(light, 101);
+            const glm::dvec3 ambient(0.1, 0.2, 0.3);
+            std::mt19937 random(9);
+            std::uniform_real_distribution<double> unit(0, 1);
+            std::vector<glm::dvec3> seen, expected;
+            for (auto& p : pixels) {
+                p.metallic = unit(random);
+                p.emissive = {unit(random), 0, unit(random)};
+                seen.emplace_back(unit(random), unit(random), unit(random));
+                const auto visibility = channels == 3 ? seen.back() : glm::dvec3(seen.back().x);
+                expected.push_back(p.emissive + p.albedo * ambient +
+                                   shadeReference(light, p, kEye - p.position, visibility));
+            }
+            expectColours(shadePixels(pixels, light, kEye, ambient, channels, seen), expected, 3e-3,
+                          1e-3);
+        }
+}
+
+TEST(Shade, PointLightsShineByTheirIntensityInTheirCone) {
+    auto light = makeLight(false, 0, 0);
+    light.radiance = {8, 4, 2};
+    light.innerConeRad = 0.2;
+    light.outerConeRad = 0.8;
+    auto pixels = pixelsOf(light, 203);
+    std::vector<glm::dvec3> expected;
+    for (auto& p : pixels) {
+        p.metallic = 0.25;
+        expected.push_back(shadeReference(light, p, kEye - p.position, glm::dvec3(1)));
+    }
+    expectColours(shadePixels(pixels, light, kEye, {0, 0, 0}, 1, {}), expected, 3e-3, 5e-4);
+}
+
+TEST(Shade, BlackDielectricsReflectFourPercentAndUnlitSurfacesNothing) {
+    auto light = makeLight(true, 0.5, 0.5);
+    light.radiance = glm::dvec3(20);
+    auto pixels = pixelsOf(light, 61);
+    std::vector<glm::dvec3> expected;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        pixels[i].albedo = glm::dvec3(0);
+        pixels[i].metallic = 0;
+        pixels[i].unlit = i % 2 != 0;
+        pixels[i].emissive = glm::dvec3(0.125);
+        expected.push_back(pixels[i].emissive + shadeReference(light, pixels[i],
+                                                               kEye - pixels[i].position,
+                                                               glm::dvec3(1)));
+    }
+    expectColours(shadePixels(pixels, light, kEye, {0, 0, 0}, 1, {}), expected, 3e-3, 1e-4);
+}
+
+TEST(Shade, SurfacesThatFaceAwayAreDarkHoweverTheirNormalsLean) {
+    const auto light = makeLight(false, 1, 1);
+    std::vector<ShadePixel> pixels;
+    for (const double tilt : {-0.4, -0.1, 0.1, 0.4}) {  // the light's edge is 0.5 / 3 away
+        ShadePixel p;
+        p.position = light.centre + 3.0 * light.axisZ;
+        p.geometric = glm::normalize(light.axisX - tilt * light.axisZ);
+        p.normal = glm::normalize(light.axisX - 2.0 * light.axisZ);
+        pixels.push_back(p);
+    }
+    const auto values =
+        shadePixels(pixels, light, pixels[0].position + pixels[0].normal, {0, 0, 0}, 1, {});
+    EXPECT_EQ(values[0], glm::dvec3(0));
+    for (std::size_t i = 1; i < 4; ++i) EXPECT_GT(values[i].x, 0.01) << i;
+}
+
+TEST(Shade, SixteenPointsStandForTheWholeLightOnRoughSurfaces) {
+    const auto light = makeLight(false, 1, 0.8);
+    auto pixels = pixelsOf(light, 203);
+    double sum = 0, integral = 0;
+    for (auto& p : pixels) {
+        p.roughness = 0.3 + 0.7 * p.roughness;
+        const double points = reflectionReference(light, p, kEye - p.position).x;
+        const double truth = reflectionIntegral(light, p, kEye - p.position, 300).x;
+        // One pixel may see the points apart; over many they neither lose nor make light
+        EXPECT_NEAR(points, truth, 0.35 * truth + 0.02) << "roughness " << p.roughness;
+        sum += points;
+        integral += truth;
+    }
+    EXPECT_NEAR(sum / integral, 1, 0.03);
 }
 
 TEST(Shade, AmbientIsFivePercentOfTheIrradianceAtTheCentre) {

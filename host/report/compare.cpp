@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "host/metrics/flip.h"
+#include "host/metrics/image_error.h"
+#include "host/metrics/ssim.h"
+#include "host/report/comparison.h"
+#include "host/report/contender_run.h"
+#include "runtime/error.h"
+
+namespace penumbra::report {
+namespace {
+
+using Progress = void (*)(const std::string&);
+
+metrics::Picture pictureOf(const SeenFrame& frame) {
+    metrics::Picture picture{frame.width, frame.height, metrics::Encoding::srgb, {}};
+    for (std::size_t c = 0; c < 3; ++c) {
+        metrics::Plane plane(frame.picture.size() / 3);
+        for (std::size_t i = 0; i < plane.size(); ++i)
+            plane[i] = static_cast<float>(frame.picture[3 * i + c]) / 255;
+        picture.planes.push_back(std::move(plane));
+    }
+    return picture;
+}
+
+/// Errors of a frame; `flipMap` receives the map of the tone-mapped frame.
+FrameError errorOf(const SeenFrame& truth, const SeenFrame& frame, metrics::Plane* flipMap) {
+    FrameError error;
+    const auto a = pictureOf(truth), b = pictureOf(frame);
+    const auto whole = metrics::imageError({&a.planes[0], &a.planes[1], &a.planes[2]},
+                                           {&b.planes[0], &b.planes[1], &b.planes[2]}, {});
+    auto flip = metrics::flip(a, b);
+    error.frameRmse255 = 255 * whole.rmse;
+    error.frameFlip = flip.mean;
+    error.frameSsim = metrics::ssim(a, b).mean;
+    if (flipMap) *flipMap = std::move(flip.map);
+    const bool visible = truth.visibility.size() == frame.visibility.size();
+    const auto compared =
+        visible ? metrics::imageError({&truth.visibility}, {&frame.visibility}, frame.mask) : whole;
+    error.rmse = compared.rmse;
+    error.maximum = compared.maximum;
+    error.mean = compared.mean;
+    error.share4 = compared.share[1];
+    error.flip = error.frameFlip;
+    if (visible) {
+        const auto grey = [](const SeenFrame& f) {
+            return metrics::Picture{f.width, f.height, metrics::Encoding::linear, {f.visibility}};
+        };
+        error.flip = metrics::flip(grey(truth), grey(frame), frame.mask).mean;
+    }
+    return error;
+}
+
+void add(FrameError& sum, const FrameError& e) {
+    sum.rmse += e.rmse;
+    sum.maximum = std::max(sum.maximum, e.maximum);
+    sum.mean += e.mean;
+    sum.share4 += e.share4;
+    sum.flip += e.flip;
+    sum.frameRmse255 += e.frameRmse255;
+    sum.frameFlip += e.frameFlip;
+    sum.frameSsim += e.frameSsim;
+}
+
+FrameError scaled(FrameError e, double factor) {
+    for (double* value : {&e.rmse, &e.mean, &e.share4, &e.flip, &e.frameRmse255, &e.frameFlip,
+                          &e.frameSsim})
+        *value *= factor;
+    return e;
+}
+
+/// Mean change of visibility since the last frame over receivers that rest.
+double flickerOf(const SeenFrame& last, const SeenFrame& now, const std::vector<bool>& resting) {
+    if (last.visibility.size() != now.visibility.size() || now.visibility.empty()) return 0;
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < now.visibility.size(); ++i) {
+        if (!resting[i]) continue;
+        sum += std::abs(now.visibility[i] - last.visibility[i]);
+        ++count;
+    }
+    return count > 0 ? sum / count : 0;
+}
+
+/// Pixels that show the same point in both frames, to within 1e-5 of its coordinates.
+std::vector<bool> restingPixels(const SeenFrame& last, const SeenFrame& now) {
+    const std::size_t pixels = now.mask.size();
+    std::vector<bool> resting(pixels, false);
+    if (last.positions.size() != 3 * pixels || now.positions.size() != 3 * pixels) return resting;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        bool same = now.mask[i] && last.mask[i];
+        for (std::size_t axis = 0; axis < 3 && same; ++axis) {
+            const float a = last.positions[axis * pixels + i], b = now.positions[axis * pixels + i];
+            same = std::abs(a - b) <= 1e-5F * (1 + std::abs(a));
+        }
+        resting[i] = same;
+    }
+    return resting;
+}
+
+/// Frames against which others are held, kept for the length of the comparison.
+struct Truth {
+    std::map<int, SeenFrame> frames;
+    std::map<int, std::vector<bool>> resting;  ///< since the frame before
+};
+
+ContenderResult runReference(const CompareOptions& options, Truth& truth, Comparison& comparison,
+                             Progress progress) {
+    ContenderResult result;
+    const bool file = options.reference.size() > 4 &&
+                      options.reference.substr(options.reference.size() - 4) == ".exr";
+    if (file) {
+        result.contender.label = options.reference;
+        for (const int number : options.frames)
+            truth.frames[number] = readFrame(options.reference, number);
+        return result;
+    }
+    auto contender = parseContender(options.reference, options.base);
+    if (contender.label.find("samples=") == std::string::npos)
+        contender.options.lightSamples = options.referenceSamples;
+    contender.label = "reference";
+    ContenderRun run(contender, options.frames, 1, options.frames.size() > 1);
+    const SeenFrame* last = nullptr;
+    for (const int number : options.frames) {
+        progress(fmt::format("reference {}, {} samples: frame {}", options.reference,
+                             contender.options.lightSamples, number));
+        auto& frame = truth.frames[number] = run.render(number, options.folder);
+        FrameResult seen;
+        seen.number = number;
+        seen.ms = frame.ms;
+        seen.totalMs = frame.totalMs;
+        if (last) {
+            truth.resting[number] = restingPixels(*last, frame);
+            seen.flicker = flickerOf(*last, frame, truth.resting[number]);
+            result.flicker += seen.flicker / static_cast<double>(options.frames.size() - 1);
+        }
+        result.frames.push_back(seen);
+        last = &frame;
+    }
+    run.finish(result);
+    for (auto& warning : run.takeWarnings()) comparison.warnings.push_back(std::move(warning));
+    return result;
+}
+
+/// Rays to the very samples of a contender: those of mvss are its own.
+Contender raysTo(const Contender& contender, const RenderOptions& base) {
+    Contender rays{"rays", base};
+    rays.options.technique = "raytrace";
+    rays.options.settings.clear();
+    rays.options.temporal = contender.options.temporal;
+    rays.options.lightSamples = contender.options.lightSamples;
+    rays.options.lightPattern = contender.options.lightPattern;
+    rays.options.seed = contender.options.seed;
+    if (contender.options.technique == "mvss") {
+        const auto setting = [&](const char* name, const char* fallback) {
+            const auto found = contender.options.settings.find(name);
+            return found == contender.options.settings.end() ? fallback : found->second;
+        };
+        rays.options.lightSamples = setting("mvss.maps", "28");
+        rays.options.lightPattern = "poisson";
+        rays.options.seed = setting("mvss.seed", "0");
+    }
+    return rays;
+}
+
+/// Visibility of rays to the same samples, rendered once for all contenders that share them.
+class SameSamples {
+  public:
+    SameSamples(const CompareOptions& options, Progress progress)
+        : options_(options), progress_(progress) {}
+    const metrics::Plane& at(const Contender& contender, int number) {
+        const Contender rays = raysTo(contender, options_.base);
+        const auto& o = rays.options;
+        const std::string key = fmt::format("{} {} {} {}", o.lightSamples, o.lightPattern, o.seed,
+                                            o.temporal);
+        auto& frames = known_[key];
+        if (frames.empty()) {
+            progress_(fmt::format("rays to {} {} samples", o.lightSamples, o.lightPattern));
+            ContenderRun run(rays, options_.frames, 1, false);
+            for (const int frame : options_.frames)
+                frames[frame] = run.render(frame, "").visibility;
+        }
+        return frames[number];
+    }
+
+  private:
+    const CompareOptions& options_;
+    Progress progress_;
+    std::map<std::string, std::map<int, metrics::Plane>> known_;
+};
+
+double visibilityRmse(const metrics::Plane& a, const SeenFrame& b) {
+    if (a.size() != b.visibility.size()) return 0;
+    return metrics::imageError({&a}, {&b.visibility}, b.mask).rmse;
+}
+
+ContenderResult runContender(const Contender& contender, const Comparison& comparison,
+                             const Truth& truth, SameSamples* rays, const std::string& folder,
+                             Progress progress, std::vector<std::string>& warnings) {
+    const auto& options = comparison.options;
+    ContenderResult result;
+    ContenderRun run(contender, options.frames, options.repeats, false);
+    std::optional<SeenFrame> last;
+    const auto count = static_cast<double>(options.frames.size());
+    result.error.frameSsim = 0;
+    for (const int number : options.frames) {
+        progress(fmt::format("{}: frame {}", contender.label, number));
+        SeenFrame frame = run.render(number, folder);
+        const auto& reference = truth.frames.at(number);
+        require(reference.width == frame.width && reference.height == frame.height,
+                "the reference has {}x{} pixels, the frames {}x{}; use --size {}x{}",
+                reference.width, reference.height, frame.width, frame.height, reference.width,
+                reference.height);
+        FrameResult seen;
+        seen.number = number;
+        seen.ms = frame.ms;
+        seen.totalMs = frame.totalMs;
+        const bool shown = number == comparison.shownFrame;
+        seen.reference = errorOf(reference, frame, shown ? &result.shown.flip : nullptr);
+        if (rays) seen.sameSamples = visibilityRmse(rays->at(contender, number), frame);
+        const auto resting = truth.resting.find(number);
+        if (last && resting != truth.resting.end()) {
+            seen.flicker = flickerOf(*last, frame, resting->second);
+            result.flicker += seen.flicker / (count - 1);
+        }
+        add(result.error, seen.reference);
+        result.sameSamples += seen.sameSamples / count;
+        result.frames.push_back(seen);
+        if (shown) {
+            result.shown.width = frame.width;
+            result.shown.height = frame.height;
+            result.shown.frame = frame.picture;
+            result.shown.visibility = frame.visibility;
+            result.shown.mask = frame.mask;
+        }
+        last = std::move(frame);
+    }
+    result.error = scaled(result.error, 1 / count);
+    run.finish(result);
+    for (auto& warning : run.takeWarnings()) warnings.push_back(std::move(warning));
+    return result;
+}
+
+/// "light-samples=8,16" or "resolution=256,512": the key, and its values.
+std::pair<std::string, std::vector<std::string>> parseSweep(const std::string& text) {
+    const auto equals = text.find('=');
+    requireUsage(equals != std::string::npos && equals > 0 && equals + 1 < text.size(),
+                 "--sweep '{}' is not key=value,value,...; light-samples, or a setting that the "
+                 "techniques have",
+                 text);
+    std::vector<std::string> values;
+    for (std::size_t begin = equals + 1; begin <= text.size();) {
+        const auto end = std::min(text.find(',', begin), text.size());
+        values.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return {text.substr(0, equals), values};
+}
+
+double sweepNumber(const std::string& text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    requireUsage(error == std::errc() && end == text.data() + text.size(),
+                 "--sweep: '{}' is not a number", text);
+    return value;
+}
+
+bool hasSetting(const std::string& technique, const std::string& key) {
+    const auto rows = visibility::findTechnique(technique).describe();
+    return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == key; });
+}
+
+void runSweep(Comparison& comparison, const Truth& truth, Progress progress) {
+    const auto& options = comparison.options;
+    const auto [key, values] = parseSweep(options.sweep);
+    for (const auto& value : values) {
+        const double number = sweepNumber(value);
+        for (const auto& text : options.techniques) {
+            const auto technique = parseContender(text, options.base).options.technique;
+            const bool samples = key == "light-samples";
+            // One map has no samples, mvss its own
+            const auto own = technique == "mvss" ? "maps" : "samples";
+            if (samples && (technique == "pcss" || technique == "essm" || technique == "none"))
+                continue;
+            if (!samples && !hasSetting(technique, key)) continue;
+            const auto contender =
+                parseContender(fmt::format("{}:{}={}", text, samples ? own : key, value),
+                               options.base);
+            auto result = runContender(contender, comparison, truth, nullptr, "", progress,
+                                       comparison.warnings);
+            result.contender.label = text;
+            result.sweepValue = number;
+            result.shown = {};
+            comparison.sweep.push_back(std::move(result));
+        }
+    }
+}
+
+void compareTimes(Comparison& comparison) {
+    const auto mvr = std::find_if(
+        comparison.results.begin(), comparison.results.end(),
+        [](const auto& r) { return r.contender.options.technique == "mvr"; });
+    if (mvr == comparison.results.end()) return;
+    for (auto& result : comparison.results)
+        if (result.ms > 0) result.fasterThanMvr = mvr->ms / result.ms;
+}
+
+}  // namespace
+
+Comparison compare(const CompareOptions& options, Progress progress) {
+    requireUsage(!options.techniques.empty(), "--techniques names none; see penumbra techniques");
+    requireUsage(!options.frames.empty(), "--frames names none");
+    requireUsage(options.repeats >= 1 && options.repeats <= 100, "--repeats {} is outside of 1 to 100",
+                 options.repeats);
+    std::vector<Contender> contenders;
+    std::set<std::string> labels{"reference"};
+    for (const auto& text : options.techniques) {
+        contenders.push_back(parseContender(text, options.base));
+        requireUsage(labels.insert(fileName(text)).second, "technique '{}' is listed twice", text);
+    }
+    if (!options.sweep.empty())
+        for (const auto& value : parseSweep(options.sweep).second) sweepNumber(value);
+    std::error_code error;
+    std::filesystem::create_directories(options.folder, error);
+    require(std::filesystem::is_directory(options.folder), "--report {}: the folder cannot be made: {}",
+            options.folder, error.message());
+
+    Comparison comparison;
+    comparison.options = options;
+    comparison.shownFrame = options.frames[options.frames.size() / 2];
+    Truth truth;
+    comparison.reference = runReference(options, truth, comparison, progress);
+    SameSamples rays(options, progress);
+    for (const auto& contender : contenders)
+        comparison.results.push_back(runContender(contender, comparison, truth,
+                                                  options.sameSamples ? &rays : nullptr,
+                                                  options.folder, progress, comparison.warnings));
+    if (!options.sweep.empty()) runSweep(comparison, truth, progress);
+    const auto& shown = truth.frames.at(comparison.shownFrame);
+    comparison.width = shown.width;
+    comparison.height = shown.height;
+    comparison.reference.shown = {shown.width, shown.height, shown.picture, shown.visibility,
+                                  shown.mask,  {}};
+    compareTimes(comparison);
+    // A reference from a file has no device
+    comparison.device = comparison.results.front().settings.at("device");
+    comparison.driver = comparison.results.front().settings.at("driver");
+    std::sort(comparison.warnings.begin(), comparison.warnings.end());
+    comparison.warnings.erase(
+        std::unique(comparison.warnings.begin(), comparison.warnings.end()),
+        comparison.warnings.end());
+    return comparison;
+}
+
+}  // namespace penumbra::report

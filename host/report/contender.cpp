@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "host/report/comparison.h"
+#include "host/visibility/technique.h"
+#include "runtime/error.h"
+
+namespace penumbra::report {
+
+Contender parseContender(const std::string& text, const RenderOptions& base) {
+    Contender contender{text, base};
+    auto& options = contender.options;
+    std::size_t begin = text.find(':');
+    options.technique = text.substr(0, begin);
+    visibility::findTechnique(options.technique);
+    while (begin != std::string::npos) {
+        const auto end = text.find(':', ++begin);
+        const std::string item = text.substr(begin, end - begin);
+        const auto equals = item.find('=');
+        requireUsage(equals != std::string::npos && equals > 0,
+                     "'{}' of technique '{}' is not setting=value", item, text);
+        const std::string key = item.substr(0, equals), value = item.substr(equals + 1);
+        if (key == "samples")
+            options.lightSamples = value;
+        else if (key == "pattern")
+            options.lightPattern = value;
+        else if (key == "seed")
+            options.seed = value;
+        else if (key == "temporal")
+            try {
+                options.temporal = std::stoi(value);
+            } catch (const std::exception&) {
+                throw Error(fmt::format("'{}': temporal={} is not a number", text, value),
+                            ExitCode::usage);
+            }
+        else
+            options.settings[options.technique + "." + key] = value;
+        begin = end;
+    }
+    // Settings of other techniques are for other contenders
+    std::erase_if(options.settings, [&](const auto& setting) {
+        return setting.first.rfind(options.technique + ".", 0) != 0;
+    });
+    return contender;
+}
+
+}  // namespace penumbra::report
