@@ -17,8 +17,8 @@ struct Actor {
     glm::vec3 place{0};  // on the ground
     float yawDeg = 0;
     float scale = 1;
-    float startSeconds = 0;              // into the loop
-    glm::vec3 cloth{0.5F, 0.1F, 0.07F};  // colour of flag, cape and coat
+    float startSeconds = 0;  // into the loop
+    glm::vec3 cloth{0.5F};   // colour of flag, cape and coat
     bool hasCape = true;
 };
 
