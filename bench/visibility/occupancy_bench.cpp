@@ -10,7 +10,8 @@ namespace {
 
 void occupancy(benchmark::State& state) {
     auto& posed = builtinScene();
-    const auto view = visibility::fitLightView(posed.light, posed.bounds, posed.bounds.centre(), 1024, 1);
+    const auto view =
+        visibility::fitLightView(posed.light, posed.bounds, posed.bounds.centre(), 1024, 1);
     const int stride = shared::gbufferStride(1280 * 720);
     // Half of the receivers at the rim of the view, where nothing is
     std::vector<float> planes(static_cast<std::size_t>(RECEIVER_PLANES * stride), 0.5F);

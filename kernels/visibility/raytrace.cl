@@ -5,6 +5,7 @@
 // triangles compute a shared edge with opposite signs exactly, so that closed meshes have no cracks.
 // Opacity is multiplied along the ray as a sum of fixed-point logarithms: the tree's order does not matter.
 #include "lib/lanes.h"
+#include "lib/random_samples.h"
 #include "lib/receiver.h"
 #include "lib/texture.h"
 #include "lib/transmittance.h"
@@ -26,35 +27,6 @@ inline VF inverseOf(VF d) {
     return 1.0f / V_SELECT(d, tiny, V_MASK(fabs(d) < 1e-18f));
 }
 
-/// The next number of a PCG hash per lane, in (0, 1).
-inline VF randomNext(VU* state) {
-    *state = *state * 747796405u + 2891336453u;
-    const VU word = ((*state >> ((*state >> 28) + 4u)) ^ *state) * 277803737u;
-    return fma(V_TO_FLOAT(V_AS_INT(((word >> 22) ^ word) >> 9)), (VF)(1.0f / 8388608.0f), (VF)(0.5f / 8388608.0f));
-}
-
-/// Random points of the light, of their own for each (pixel, sample, seed): in the square, or where that is a disk,
-/// rejected until inside; the last try is pulled in.
-inline void randomSamples(const RaytraceParams* p, int pixel, VI index, RayPacket* r) {
-    VU state = V_AS_UINT(index) * 0x9e3779b1u + (uint)pixel * 0x85ebca77u + as_uint(p->centre.w) * 0xc2b2ae3du;
-    randomNext(&state);
-    VF u = fma(randomNext(&state), (VF)2.0f, (VF)-1.0f), v = fma(randomNext(&state), (VF)2.0f, (VF)-1.0f);
-    for (int i = 0; i < 24 && p->shape == RAY_SAMPLES_DISK; ++i) {
-        const VI outside = V_MASK(fma(u, u, v * v) > 1.0f);
-        if (!V_ANY(outside)) break;
-        u = V_SELECT(u, fma(randomNext(&state), (VF)2.0f, (VF)-1.0f), outside);
-        v = V_SELECT(v, fma(randomNext(&state), (VF)2.0f, (VF)-1.0f), outside);
-    }
-    if (p->shape == RAY_SAMPLES_DISK) {
-        const VF shrink = 1.0f / sqrt(max(fma(u, u, v * v), (VF)1.0f));
-        u *= shrink;
-        v *= shrink;
-    }
-    r->x = fma(u, (VF)p->axisX.x, fma(v, (VF)p->axisY.x, (VF)p->centre.x));
-    r->y = fma(u, (VF)p->axisX.y, fma(v, (VF)p->axisY.y, (VF)p->centre.y));
-    r->z = fma(u, (VF)p->axisX.z, fma(v, (VF)p->axisY.z, (VF)p->centre.z));
-}
-
 inline RayPacket packetTo(const RaytraceParams* p, float3 origin, float3 normal, global const float* restrict samples,
                           int pixel, int first) {
     RayPacket r;
@@ -67,7 +39,7 @@ inline RayPacket packetTo(const RaytraceParams* p, float3 origin, float3 normal,
         r.y = V_GATHER_(VF, samples, clamped + count);
         r.z = V_GATHER_(VF, samples, clamped + 2 * count);
     } else {
-        randomSamples(p, pixel, index, &r);
+        randomSamples(p, pixel, index, &r.x, &r.y, &r.z);
     }
     r.x -= origin.x;
     r.y -= origin.y;

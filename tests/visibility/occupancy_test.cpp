@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Receivers that no caster can shadow: leaving them out changes no byte, and leaves out what it can.
+// Receivers that no caster can shadow: leaving them out changes no byte, and leaves out what it
+// can.
 #include "host/visibility/occupancy.h"
 
 #include <cstring>
@@ -57,7 +58,8 @@ INSTANTIATE_TEST_SUITE_P(
     Lights, OccupancyImageTest,
     testing::Values(Setting{kUsual, "vwss", {{"vwss.resolution", "128"}}},
                     Setting{kUsual, "mvr", {{"mvr.pcf", "9"}, {"mvr.depthBits", "16"}}},
-                    Setting{kUsual, "mvr", {{"mvr.pcf", "bilinear"}, {"mvr.coverage", "conservative"}}},
+                    Setting{
+                        kUsual, "mvr", {{"mvr.pcf", "bilinear"}, {"mvr.coverage", "conservative"}}},
                     Setting{kUsual, "mvss", {}},
                     Setting{kUsual, "vwss", {{"vwss.halfResolution", "true"}}},
                     Setting{kUsual, "vwss", {{"vwss.precision", "fixed"}, {"vwss.density", "0.5"}}},
@@ -114,7 +116,8 @@ TEST(OccupancyTest, LeavesOutExactlyWhatTheTwinLeavesOut) {
         }
         (after[w] == 0 ? left : kept) += 1;
         ASSERT_TRUE(after[w] == 0 || after[w] == before[w]);
-        // Nothing that may be shadowed is left out; what is kept in vain lies within cells of casters
+        // Nothing that may be shadowed is left out; what is kept in vain lies within cells of
+        // casters
         ASSERT_FALSE(after[w] == 0 && twin[i] == Shadowable::yes) << i;
         wrong += after[w] != 0 && twin[i] == Shadowable::no ? 1 : 0;
     }
