@@ -7,7 +7,8 @@ trap 'rm -rf "$logs"' EXIT
 runtime_packages="pocl-opencl-icd binutils ocl-icd-opencl-dev opencl-clhpp-headers"
 build_packages="g++ cmake make pkg-config libglm-dev libtinygltf-dev libopenexr-dev libimath-dev libpng-dev
   libstb-dev libcli11-dev libfmt-dev nlohmann-json3-dev"
-test_packages="libgtest-dev libbenchmark-dev libembree-dev libtbb-dev"
+test_packages="libgtest-dev libbenchmark-dev libembree-dev libtbb-dev
+  libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri"
 
 # step NAME COMMAND...: runs quietly; shows the output only where it fails
 step() {
