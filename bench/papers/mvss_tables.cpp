@@ -25,7 +25,7 @@ nlohmann::json mvssTable1(const Request& request) {
             const auto& r = comparison.results[0];
             const double maps = stageMs(r, {"depth maps"});
             const double shading = stageMs(r, {"lighting", "shading"});
-            const double megabytes = 28.0 * size * size * 4 / 1048576;
+            const double megabytes = static_cast<double>(r.mapBytes) / 1048576;
             printRow({scene, std::to_string(r.mapTriangles), std::to_string(size),
                       fmt::format("{:.2f}", maps), fmt::format("{:.2f}", shading),
                       fmt::format("{:.2f}", maps + shading),

@@ -71,7 +71,7 @@ struct ContenderResult {
     std::optional<double> sweepValue;
     FrameError error;  ///< means over frames (maximum: largest)
     double sameSamples = 0, flicker = 0;
-    std::uint64_t points = 0, mapTriangles = 0, bytes = 0;
+    std::uint64_t points = 0, mapTriangles = 0, mapBytes = 0, bytes = 0;
     std::vector<FrameResult> frames;
     std::vector<std::string> files;
     Pictures shown;  ///< of Comparison::shownFrame

@@ -91,6 +91,7 @@ void ContenderRun::time(const std::string& statsJson, SeenFrame& seen) {
     seen.totalMs = total;
     points_ = std::max<std::uint64_t>(points_, stats["points"]);
     mapTriangles_ = std::max<std::uint64_t>(mapTriangles_, stats["mapTriangles"]);
+    mapBytes_ = std::max<std::uint64_t>(mapBytes_, stats["mapBytes"]);
     bytes_ = std::max<std::uint64_t>(bytes_, stats["bytes"]);
 }
 
@@ -132,6 +133,7 @@ void ContenderRun::finish(ContenderResult& result) const {
     result.totalMs = median(totalMs_);
     result.points = points_;
     result.mapTriangles = mapTriangles_;
+    result.mapBytes = mapBytes_;
     result.bytes = bytes_;
     result.files = files_;
     const auto stats = nlohmann::json::parse(pipeline_->statsJson());

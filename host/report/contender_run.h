@@ -39,7 +39,7 @@ class ContenderRun {
     std::map<std::string, std::vector<double>> stages_;
     std::vector<std::string> stageOrder_, files_;
     std::vector<double> ms_, totalMs_;
-    std::uint64_t points_ = 0, mapTriangles_ = 0, bytes_ = 0;
+    std::uint64_t points_ = 0, mapTriangles_ = 0, mapBytes_ = 0, bytes_ = 0;
 };
 
 /// A name that is a file's: letters, digits, '.', '-', '_'.

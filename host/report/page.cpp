@@ -257,15 +257,18 @@ std::string details(const Comparison& c) {
     std::string html =
         "<h2>What made this page</h2><div "
         "class=\"scroll\"><table><thead><tr><th>technique</th><th>points</th>"
-        "<th>triangles<br>a map</th><th>device<br>MB</th><th>files</th></tr></thead><tbody>";
+        "<th>triangles<br>a "
+        "map</th><th>maps<br>MB</th><th>device<br>MB</th><th>files</th></tr></thead><tbody>";
     for (const auto& r : c.results) {
         std::string files;
         for (std::size_t i = 0; i < r.files.size() && i < 2; ++i)
             files += fmt::format("<a href=\"{0}\">{0}</a> ", escaped(r.files[i]));
         if (r.files.size() > 2) files += fmt::format("and {} more", r.files.size() - 2);
-        html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td><td>{}</td></tr>",
-                            escaped(r.contender.label), r.points, r.mapTriangles,
-                            static_cast<double>(r.bytes) / 1048576.0, files);
+        html += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td><td>{:.1f}</td><td>{}</td></tr>",
+            escaped(r.contender.label), r.points, r.mapTriangles,
+            static_cast<double>(r.mapBytes) / 1048576.0, static_cast<double>(r.bytes) / 1048576.0,
+            files);
     }
     html += "</tbody></table></div>";
     for (const auto& r : c.results) {

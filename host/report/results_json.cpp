@@ -37,6 +37,7 @@ json resultJson(const ContenderResult& r) {
                    {"flicker", r.flicker},
                    {"points", r.points},
                    {"mapTriangles", r.mapTriangles},
+                   {"mapBytes", r.mapBytes},
                    {"bytes", r.bytes},
                    {"frames", frames},
                    {"files", r.files}};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "kernels/shared/gbuffer.h"
 #include "runtime/error.h"
@@ -130,6 +131,10 @@ void MultiView::run(const Inputs& inputs, const scene::AreaLight& views, MapSour
     if (settings_.skipLit && reader.testsSamples())
         occupancy_.skip(inputs.mesh, view, image_.receiverStride, receiverImage_.planes);
 
+    mapBytes_ += static_cast<std::uint64_t>(view.params.views) *
+                 static_cast<std::uint64_t>(settings_.resolution) *
+                 static_cast<std::uint64_t>(settings_.resolution) *
+                 static_cast<std::uint64_t>(settings_.depthBits / 8);
     const bool wide = source.needsWideMaps();
     const int batch = batchSize(view, wide);
     allocateMaps(view, batch, wide);
@@ -194,6 +199,7 @@ Counts MultiView::takeCounts() {
         counts.outsideFov += c.outsideFov;
         counts.nearPoints += c.nearPoints;
     }
+    counts.mapBytes = std::exchange(mapBytes_, 0);
     nextLight_ = 0;
     warnings_.clear();
     return counts;

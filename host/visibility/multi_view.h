@@ -119,6 +119,7 @@ class MultiView {
     Buffer<std::uint16_t> maps16_;
     std::vector<std::unique_ptr<PerLight>> lights_;
     std::size_t nextLight_ = 0;
+    std::uint64_t mapBytes_ = 0;  ///< of the frame's lights
     std::unique_ptr<Tracer> tracer_;
     std::vector<std::string> warnings_;
 };

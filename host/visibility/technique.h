@@ -45,6 +45,7 @@ struct Inputs {
 struct Counts {
     std::uint64_t points = 0, outsideFov = 0, nearPoints = 0;
     std::uint64_t mapTriangles = 0;  ///< drawn into each depth map
+    std::uint64_t mapBytes = 0;  ///< of all depth maps, whether they are held at once or in turn
 };
 
 class Technique {

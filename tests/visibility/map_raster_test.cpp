@@ -243,6 +243,7 @@ TEST(MapRasterTest, StatsNameTheTrianglesOfAMap) {
     setup.settings["mvr.form"] = "textbook";
     const auto run = runShadows(mixedScene(), setup);
     EXPECT_EQ(run.counts.mapTriangles, run.casters.size() / 3);
+    EXPECT_EQ(run.counts.mapBytes, 11U * 96 * 96 * 4);
     setup.settings["mvr.form"] = "full";  // leaves out the backs of the sphere
     const auto culled = runShadows(mixedScene(), setup).counts.mapTriangles;
     EXPECT_LT(culled, run.counts.mapTriangles * 7 / 10);
