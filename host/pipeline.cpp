@@ -333,15 +333,14 @@ Frame Pipeline::collect(int number) {
 }
 
 std::vector<bool> Pipeline::testedPixels() const {
-    const int n = options_.supersample;
-    std::vector<bool> tested(
-        static_cast<std::size_t>(options_.width) * static_cast<std::size_t>(options_.height),
-        false);
+    const auto n = static_cast<std::size_t>(options_.supersample);
+    const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
+    std::vector<bool> tested((width / n) * (height / n), false);
     for (const auto& states : keptStates_)
-        for (int y = 0; y < height_; ++y)
-            for (int x = 0; x < width_; ++x)
-                if (states[static_cast<std::size_t>(y * width_ + x)] == STATE_TESTED)
-                    tested[static_cast<std::size_t>(y / n * options_.width + x / n)] = true;
+        for (std::size_t y = 0; y < height; ++y)
+            for (std::size_t x = 0; x < width; ++x)
+                if (states[y * width + x] == STATE_TESTED)
+                    tested[y / n * (width / n) + x / n] = true;
     return tested;
 }
 

@@ -65,7 +65,8 @@ double errorIn(const Pictures& truth, const Pictures& frame, const Inset& square
     double sum = 0;
     for (int y = square.y; y < square.y + square.size; ++y)
         for (int x = square.x; x < square.x + square.size; ++x) {
-            const auto at = static_cast<std::size_t>(y * truth.width + x);
+            const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(truth.width) +
+                            static_cast<std::size_t>(x);
             if (frame.mask.empty() || frame.mask[at])
                 sum += std::abs(static_cast<double>(truth.visibility[at]) -
                                 static_cast<double>(frame.visibility[at]));

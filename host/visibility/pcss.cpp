@@ -37,8 +37,8 @@ std::vector<float> diskPattern(DiskPattern pattern, int count) {
 std::vector<float> tileRotations(bool rotate) {
     std::vector<float> rotations;
     for (int i = 0; i < PCSS_ROTATIONS; ++i) {
-        const double x = i % 16, y = static_cast<double>(i / 16);
-        const double inner = 0.06711056 * x + 0.00583715 * y;
+        const int column = i % 16, row = i / 16;
+        const double inner = 0.06711056 * column + 0.00583715 * row;
         const double noise = 52.9829189 * (inner - std::floor(inner));
         const double angle = rotate ? 2 * kPi * (noise - std::floor(noise)) : 0;
         rotations.push_back(static_cast<float>(std::cos(angle)));
