@@ -29,8 +29,17 @@ metrics::Picture pictureOf(const SeenFrame& frame) {
     return picture;
 }
 
+/// The pixels that count: the reference's where it knows them, so that all contenders are measured
+/// over the same; else the frame's own; all where neither knows.
+std::vector<bool> pixelsThatCount(const SeenFrame& truth, const SeenFrame& frame) {
+    const auto& mask = truth.mask.empty() ? frame.mask : truth.mask;
+    const bool any = std::find(mask.begin(), mask.end(), true) != mask.end();
+    return any ? mask : std::vector<bool>();
+}
+
 /// Errors of a frame; `flipMap` receives the map of the tone-mapped frame.
-FrameError errorOf(const SeenFrame& truth, const SeenFrame& frame, metrics::Plane* flipMap) {
+FrameError errorOf(const SeenFrame& truth, const SeenFrame& frame, const std::vector<bool>& mask,
+                   metrics::Plane* flipMap) {
     FrameError error;
     const auto a = pictureOf(truth), b = pictureOf(frame);
     const auto whole = metrics::imageError({&a.planes[0], &a.planes[1], &a.planes[2]},
@@ -42,7 +51,7 @@ FrameError errorOf(const SeenFrame& truth, const SeenFrame& frame, metrics::Plan
     if (flipMap) *flipMap = std::move(flip.map);
     const bool visible = truth.visibility.size() == frame.visibility.size();
     const auto compared =
-        visible ? metrics::imageError({&truth.visibility}, {&frame.visibility}, frame.mask) : whole;
+        visible ? metrics::imageError({&truth.visibility}, {&frame.visibility}, mask) : whole;
     error.rmse = compared.rmse;
     error.maximum = compared.maximum;
     error.mean = compared.mean;
@@ -52,7 +61,7 @@ FrameError errorOf(const SeenFrame& truth, const SeenFrame& frame, metrics::Plan
         const auto grey = [](const SeenFrame& f) {
             return metrics::Picture{f.width, f.height, metrics::Encoding::linear, {f.visibility}};
         };
-        error.flip = metrics::flip(grey(truth), grey(frame), frame.mask).mean;
+        error.flip = metrics::flip(grey(truth), grey(frame), mask).mean;
     }
     return error;
 }
@@ -76,15 +85,26 @@ FrameError scaled(FrameError e, double factor) {
 }
 
 /// Mean change of visibility since the last frame over receivers that rest.
-double flickerOf(const SeenFrame& last, const SeenFrame& now, const std::vector<bool>& resting) {
-    if (last.visibility.size() != now.visibility.size() || now.visibility.empty()) return 0;
+std::optional<double> flickerOf(const SeenFrame& last, const SeenFrame& now,
+                                const std::vector<bool>& resting) {
+    if (last.visibility.size() != now.visibility.size() || now.visibility.empty())
+        return std::nullopt;
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < now.visibility.size(); ++i) {
         if (!resting[i]) continue;
         sum += std::abs(now.visibility[i] - last.visibility[i]);
         ++count;
     }
-    return count > 0 ? sum / count : 0;
+    return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
+/// Mean over the frames that have a value; none where no frame has.
+std::optional<double> meanOf(const std::vector<FrameResult>& frames,
+                             std::optional<double> FrameResult::*value) {
+    double sum = 0, count = 0;
+    for (const auto& frame : frames)
+        if (frame.*value) sum += *(frame.*value), ++count;
+    return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
 /// Pixels that show the same point in both frames, to within 1e-5 of its coordinates.
@@ -109,12 +129,14 @@ struct Truth {
     std::map<int, std::vector<bool>> resting;  ///< since the frame before
 };
 
+bool isFile(const std::string& reference) {
+    return reference.size() > 4 && reference.substr(reference.size() - 4) == ".exr";
+}
+
 ContenderResult runReference(const CompareOptions& options, Truth& truth, Comparison& comparison,
                              Progress progress) {
     ContenderResult result;
-    const bool file = options.reference.size() > 4 &&
-                      options.reference.substr(options.reference.size() - 4) == ".exr";
-    if (file) {
+    if (isFile(options.reference)) {
         result.contender.label = options.reference;
         for (const int number : options.frames)
             truth.frames[number] = readFrame(options.reference, number);
@@ -137,11 +159,11 @@ ContenderResult runReference(const CompareOptions& options, Truth& truth, Compar
         if (last) {
             truth.resting[number] = restingPixels(*last, frame);
             seen.flicker = flickerOf(*last, frame, truth.resting[number]);
-            result.flicker += seen.flicker / static_cast<double>(options.frames.size() - 1);
         }
         result.frames.push_back(seen);
         last = &frame;
     }
+    result.flicker = meanOf(result.frames, &FrameResult::flicker);
     run.finish(result);
     for (auto& warning : run.takeWarnings()) comparison.warnings.push_back(std::move(warning));
     return result;
@@ -194,9 +216,10 @@ class SameSamples {
     std::map<std::string, std::map<int, metrics::Plane>> known_;
 };
 
-double visibilityRmse(const metrics::Plane& a, const SeenFrame& b) {
-    if (a.size() != b.visibility.size()) return 0;
-    return metrics::imageError({&a}, {&b.visibility}, b.mask).rmse;
+std::optional<double> visibilityRmse(const metrics::Plane& a, const SeenFrame& b,
+                                     const std::vector<bool>& mask) {
+    if (a.size() != b.visibility.size()) return std::nullopt;
+    return metrics::imageError({&a}, {&b.visibility}, mask).rmse;
 }
 
 ContenderResult runContender(const Contender& contender, const Comparison& comparison,
@@ -221,26 +244,28 @@ ContenderResult runContender(const Contender& contender, const Comparison& compa
         seen.ms = frame.ms;
         seen.totalMs = frame.totalMs;
         const bool shown = number == comparison.shownFrame;
-        seen.reference = errorOf(reference, frame, shown ? &result.shown.flip : nullptr);
-        if (rays) seen.sameSamples = visibilityRmse(rays->at(contender, number), frame);
+        const auto mask = pixelsThatCount(reference, frame);
+        result.ofVisibility = reference.visibility.size() == frame.visibility.size();
+        seen.reference = errorOf(reference, frame, mask, shown ? &result.shown.flip : nullptr);
+        if (rays) seen.sameSamples = visibilityRmse(rays->at(contender, number), frame, mask);
         const auto resting = truth.resting.find(number);
         if (last && resting != truth.resting.end()) {
             seen.flicker = flickerOf(*last, frame, resting->second);
-            result.flicker += seen.flicker / (count - 1);
         }
         add(result.error, seen.reference);
-        result.sameSamples += seen.sameSamples / count;
         result.frames.push_back(seen);
         if (shown) {
             result.shown.width = frame.width;
             result.shown.height = frame.height;
             result.shown.frame = frame.picture;
             result.shown.visibility = frame.visibility;
-            result.shown.mask = frame.mask;
+            result.shown.mask = mask;
         }
         last = std::move(frame);
     }
     result.error = scaled(result.error, 1 / count);
+    result.sameSamples = meanOf(result.frames, &FrameResult::sameSamples);
+    result.flicker = meanOf(result.frames, &FrameResult::flicker);
     run.finish(result);
     for (auto& warning : run.takeWarnings()) warnings.push_back(std::move(warning));
     return result;
@@ -275,6 +300,31 @@ bool hasSetting(const std::string& technique, const std::string& key) {
     return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == key; });
 }
 
+bool canSweep(const std::string& technique, const std::string& key) {
+    if (key != "light-samples") return hasSetting(technique, key);
+    return technique != "pcss" && technique != "essm" &&
+           technique != "none";  // one map or no light
+}
+
+/// Checks a sweep before anything renders; names the contenders that it leaves out.
+void checkSweep(const CompareOptions& options, std::vector<std::string>& warnings) {
+    const auto [key, values] = parseSweep(options.sweep);
+    for (const auto& value : values) sweepNumber(value);
+    std::size_t swept = 0;
+    for (const auto& text : options.techniques) {
+        const auto technique = parseContender(text, options.base).options.technique;
+        if (canSweep(technique, key))
+            ++swept;
+        else
+            warnings.push_back(
+                fmt::format("--sweep {}: {} has none of it and is left out", key, text));
+    }
+    requireUsage(swept > 0,
+                 "--sweep {}: no technique of --techniques has it; light-samples, or the name of a "
+                 "setting (see penumbra techniques), without its technique",
+                 key);
+}
+
 void runSweep(Comparison& comparison, const Truth& truth, Progress progress) {
     const auto& options = comparison.options;
     const auto [key, values] = parseSweep(options.sweep);
@@ -283,11 +333,9 @@ void runSweep(Comparison& comparison, const Truth& truth, Progress progress) {
         for (const auto& text : options.techniques) {
             const auto technique = parseContender(text, options.base).options.technique;
             const bool samples = key == "light-samples";
-            // One map has no samples, mvss its own
+            // The samples of mvss are its own
             const auto own = technique == "mvss" ? "maps" : "samples";
-            if (samples && (technique == "pcss" || technique == "essm" || technique == "none"))
-                continue;
-            if (!samples && !hasSetting(technique, key)) continue;
+            if (!canSweep(technique, key)) continue;
             const auto contender = parseContender(
                 fmt::format("{}:{}={}", text, samples ? own : key, value), options.base);
             auto result = runContender(contender, comparison, truth, nullptr, "", progress,
@@ -320,16 +368,23 @@ Comparison compare(const CompareOptions& options, Progress progress) {
     std::set<std::string> labels{"reference"};
     for (const auto& text : options.techniques) {
         contenders.push_back(parseContender(text, options.base));
+        checkSettings(contenders.back());
         requireUsage(labels.insert(fileName(text)).second, "technique '{}' is listed twice", text);
     }
-    if (!options.sweep.empty())
-        for (const auto& value : parseSweep(options.sweep).second) sweepNumber(value);
+    Comparison comparison;
+    if (!options.sweep.empty()) checkSweep(options, comparison.warnings);
+    if (isFile(options.reference))
+        requireUsage(
+            options.frames.size() == 1 || options.reference.find('#') != std::string::npos,
+            "--frames are {} frames and --reference {} is one file; put #### into the name",
+            options.frames.size(), options.reference);
+    else
+        checkSettings(parseContender(options.reference, options.base));
     std::error_code error;
     std::filesystem::create_directories(options.folder, error);
     require(std::filesystem::is_directory(options.folder),
             "--report {}: the folder cannot be made: {}", options.folder, error.message());
 
-    Comparison comparison;
     comparison.options = options;
     comparison.shownFrame = options.frames[options.frames.size() / 2];
     Truth truth;

@@ -22,6 +22,9 @@ struct Contender {
 /// `pattern`, `seed` of the render. Throws Error (usage).
 Contender parseContender(const std::string& text, const RenderOptions& base);
 
+/// Throws Error (usage) for settings that the technique does not have, before anything renders.
+void checkSettings(const Contender& contender);
+
 struct CompareOptions {
     RenderOptions base;
     std::vector<std::string> techniques;    ///< texts of contenders
@@ -46,11 +49,13 @@ struct FrameError {
 
 struct FrameResult {
     int number = 0;
-    FrameError reference;    ///< against the reference
-    double sameSamples = 0;  ///< RMSE of visibility against rays to the very same light samples
-    double flicker = 0;      ///< mean change of visibility since the last frame, static receivers
-    double ms = 0;           ///< of the technique: all stages but the camera's and shading
-    double totalMs = 0;      ///< of all stages
+    FrameError reference;  ///< against the reference
+    /// RMSE of visibility against rays to the very same light samples; none: not compared.
+    std::optional<double> sameSamples;
+    /// Mean change of visibility since the last frame on resting receivers; none: not known.
+    std::optional<double> flicker;
+    double ms = 0;       ///< of the technique: all stages but the camera's and shading
+    double totalMs = 0;  ///< of all stages
 };
 
 /// What the page shows of one frame.
@@ -69,8 +74,9 @@ struct ContenderResult {
     double ms = 0, totalMs = 0;           ///< medians
     std::optional<double> fasterThanMvr;  ///< ratio of `ms`; none without mvr in the list
     std::optional<double> sweepValue;
-    FrameError error;  ///< means over frames (maximum: largest)
-    double sameSamples = 0, flicker = 0;
+    bool ofVisibility = true;  ///< error.rmse ..: else of the picture, for want of it
+    FrameError error;          ///< means over frames (maximum: largest)
+    std::optional<double> sameSamples, flicker;  ///< means over the frames that have one
     std::uint64_t points = 0, mapTriangles = 0, mapBytes = 0, bytes = 0;
     std::vector<FrameResult> frames;
     std::vector<std::string> files;

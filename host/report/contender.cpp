@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "host/report/comparison.h"
 #include "host/visibility/technique.h"
 #include "runtime/error.h"
@@ -40,6 +42,23 @@ Contender parseContender(const std::string& text, const RenderOptions& base) {
         return setting.first.rfind(options.technique + ".", 0) != 0;
     });
     return contender;
+}
+
+void checkSettings(const Contender& contender) {
+    const auto& options = contender.options;
+    const auto rows = visibility::findTechnique(options.technique).describe();
+    std::vector<std::string> names;
+    for (const auto& row : rows) names.push_back(row.name);
+    for (const auto& [key, value] : options.settings) {
+        const auto name = key.substr(key.find('.') + 1);
+        requireUsage(std::find(names.begin(), names.end(), name) != names.end(),
+                     "'{}': {} has no setting '{}'; allowed: {}, samples, pattern, seed, temporal",
+                     contender.label, options.technique, name, fmt::join(names, ", "));
+    }
+    requireUsage(options.lightPattern != "random" || options.technique == "raytrace",
+                 "'{}': pattern random is for raytrace alone; allowed: hammersley, poisson, grid, "
+                 "jittered",
+                 contender.label);
 }
 
 }  // namespace penumbra::report

@@ -51,6 +51,10 @@ std::string cell(bool best, const std::string& value) {
     return fmt::format("<td{}>{}</td>", best ? " class=\"best\"" : "", value);
 }
 
+std::string orDash(const std::optional<double>& value, int digits) {
+    return value ? fmt::format("{:.{}f}", *value, digits) : std::string("-");
+}
+
 std::string nameCell(std::size_t index, const ContenderResult& result) {
     return fmt::format("<tr><td style=\"color:var(--c{})\"><b>{}</b></td>", index % 8,
                        escaped(result.contender.label));
@@ -78,27 +82,28 @@ std::string summary(const Comparison& c) {
                                 : std::string("<td><small>-</small></td>");
         html += cell(i == bestOf(errors), fmt::format("{:.4f}", r.error.rmse));
         html += cell(i == bestOf(flips), fmt::format("{:.4f}", r.error.flip));
-        html += fmt::format(
-            "<td>{:.3f}</td><td>{:.2f} %</td><td>{:.4f}</td><td>{:.2f}</td><td>{:.4f}</td>",
-            r.error.maximum, 100 * r.error.share4, r.sameSamples, r.error.frameRmse255,
-            r.error.frameFlip);
-        html += several ? fmt::format("<td>{:.5f}</td></tr>", r.flicker) : std::string("</tr>");
+        html +=
+            fmt::format("<td>{:.3f}</td><td>{:.2f} %</td><td>{}</td><td>{:.2f}</td><td>{:.4f}</td>",
+                        r.error.maximum, 100 * r.error.share4, orDash(r.sameSamples, 4),
+                        r.error.frameRmse255, r.error.frameFlip);
+        html +=
+            several ? fmt::format("<td>{}</td></tr>", orDash(r.flicker, 5)) : std::string("</tr>");
     }
-    html +=
-        "</tbody></table></div><p>RMSE, FLIP, max and the share beyond 4/255 are of visibility "
-        "against the reference, "
-        "over the pixels that a light can reach; <i>same samples</i> is the RMSE of visibility "
-        "against rays to the very "
-        "samples that the technique uses: its error without that of the sampling; <i>picture</i> "
-        "is the tone-mapped "
-        "frame. <i>Shadows</i> are all stages but the camera's and shading. The best of a column "
-        "is marked.";
+    const bool ofVisibility = c.results.front().ofVisibility;
+    html += fmt::format(
+        "</tbody></table></div><p>RMSE, FLIP, max and the share beyond 4/255 are {}; <i>same "
+        "samples</i> is the RMSE of visibility against rays to the very samples that the technique "
+        "uses: its error without that of the sampling; <i>picture</i> is the tone-mapped frame. "
+        "<i>Shadows</i> are all stages but the camera's and shading. The best of a column is "
+        "marked.",
+        ofVisibility ? "of visibility against the reference, over the pixels that a light can reach"
+                     : "of the tone-mapped picture, background included, since the reference holds "
+                       "no visibility");
     if (several)
         html += fmt::format(
             " Flicker is the mean change of visibility from frame to frame on receivers that rest; "
-            "the reference has "
-            "{:.5f}.",
-            c.reference.flicker);
+            "the reference has {}. It needs a rendered reference, which knows what rests.",
+            orDash(c.reference.flicker, 5));
     return html + "</p>";
 }
 
@@ -213,18 +218,17 @@ std::string charts(const Comparison& c) {
             for (const auto& f : r.frames) {
                 error.x.push_back(f.number);
                 error.y.push_back(f.reference.rmse);
+                if (!f.flicker) continue;  // the first frame, and what a file does not tell
                 change.x.push_back(f.number);
-                change.y.push_back(f.flicker);
+                change.y.push_back(*f.flicker);
             }
-            // No frame lies before the first
-            change.x.erase(change.x.begin());
-            change.y.erase(change.y.begin());
             errors.push_back(error);
             flicker.push_back(change);
         }
         html += chart(errors, {"Error over time", "frame", "RMSE of visibility"});
-        html +=
-            chart(flicker, {"Flicker on resting receivers", "frame", "mean change of visibility"});
+        if (c.reference.flicker)
+            html += chart(flicker,
+                          {"Flicker on resting receivers", "frame", "mean change of visibility"});
     }
     return html + "</div>";
 }

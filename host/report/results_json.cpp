@@ -9,6 +9,10 @@ namespace {
 
 using nlohmann::json;
 
+json orNull(const std::optional<double>& value) {
+    return value ? json(*value) : json();
+}
+
 json errorJson(const FrameError& e) {
     return {{"rmse", e.rmse},
             {"max", e.maximum},
@@ -29,19 +33,22 @@ json resultJson(const ContenderResult& r) {
                           {"totalMs", f.totalMs},
                           {"rmse", f.reference.rmse},
                           {"flip", f.reference.flip},
-                          {"flicker", f.flicker}});
+                          {"flicker", orNull(f.flicker)}});
     json result = {{"technique", r.contender.label},
                    {"settings", r.settings},
                    {"ms", {{"total", r.totalMs}, {"shadows", r.ms}, {"stages", stages}}},
-                   {"error", {{"reference", errorJson(r.error)}, {"sameSamples", r.sameSamples}}},
-                   {"flicker", r.flicker},
+                   {"error",
+                    {{"reference", errorJson(r.error)},
+                     {"sameSamples", orNull(r.sameSamples)},
+                     {"of", r.ofVisibility ? "visibility" : "picture"}}},
+                   {"flicker", orNull(r.flicker)},
                    {"points", r.points},
                    {"mapTriangles", r.mapTriangles},
                    {"mapBytes", r.mapBytes},
                    {"bytes", r.bytes},
                    {"frames", frames},
                    {"files", r.files}};
-    result["fasterThanMvr"] = r.fasterThanMvr ? json(*r.fasterThanMvr) : json();
+    result["fasterThanMvr"] = orNull(r.fasterThanMvr);
     if (r.sweepValue) result["value"] = *r.sweepValue;
     return result;
 }
@@ -65,7 +72,7 @@ std::string resultsJson(const Comparison& c) {
         {"reference",
          {{"technique", c.options.reference},
           {"samples", samples == c.reference.settings.end() ? json() : json(samples->second)},
-          {"flicker", c.reference.flicker},
+          {"flicker", orNull(c.reference.flicker)},
           {"files", c.reference.files}}},
         {"results", results},
         {"warnings", c.warnings}};

@@ -52,19 +52,19 @@ TEST(CompareTest, TheReferenceComparedWithItselfHasNoError) {
     EXPECT_EQ(comparison.results[0].error.rmse, 0);
     EXPECT_EQ(comparison.results[0].error.frameFlip, 0);
     EXPECT_EQ(comparison.results[0].error.frameSsim, 1);
-    EXPECT_EQ(comparison.results[0].sameSamples, 0);
+    EXPECT_EQ(comparison.results[0].sameSamples.value(), 0);
 }
 
 TEST(CompareTest, RaysToTheSameSamplesLeaveOutTheErrorOfSampling) {
     auto options = smallOptions("compare_same");
     options.techniques = {"raytrace", "mvss:maps=3", "vwss"};
     const auto comparison = report::compare(options, noProgress);
-    EXPECT_EQ(comparison.results[0].sameSamples, 0);
+    EXPECT_EQ(comparison.results[0].sameSamples.value(), 0);
     EXPECT_GT(comparison.results[0].error.rmse, 0.01);  // of four samples
     // The samples of mvss are its own
-    EXPECT_GT(comparison.results[1].sameSamples, 0);
-    EXPECT_LT(comparison.results[1].sameSamples, 0.2);
-    EXPECT_GT(comparison.results[2].sameSamples, 0);
+    EXPECT_GT(comparison.results[1].sameSamples.value(), 0);
+    EXPECT_LT(comparison.results[1].sameSamples.value(), 0.2);
+    EXPECT_GT(comparison.results[2].sameSamples.value(), 0);
 }
 
 TEST(CompareTest, ResultsNameTimesErrorsAndFiles) {
@@ -109,10 +109,10 @@ TEST(CompareTest, SequencesShowErrorAndFlickerOverTime) {
     const auto comparison = report::compare(options, noProgress);
     const auto& plain = comparison.results[0];
     ASSERT_EQ(plain.frames.size(), 3U);
-    EXPECT_EQ(plain.frames[0].flicker, 0);
-    EXPECT_GT(plain.frames[1].flicker, 0);
-    EXPECT_LT(comparison.results[1].flicker, plain.flicker);  // averaging steadies
-    EXPECT_GT(comparison.reference.flicker, 0);
+    EXPECT_FALSE(plain.frames[0].flicker);
+    EXPECT_GT(plain.frames[1].flicker.value(), 0);
+    EXPECT_LT(comparison.results[1].flicker.value(), plain.flicker.value());  // averaging steadies
+    EXPECT_GT(comparison.reference.flicker.value(), 0);
     const auto page = report::reportPage(comparison);
     EXPECT_NE(page.find("Error over time"), std::string::npos);
     EXPECT_NE(page.find("Flicker on resting receivers"), std::string::npos);
@@ -142,6 +142,32 @@ TEST(CompareTest, AFileOfAnotherRendererCanBeTheReference) {
     EXPECT_GT(comparison.results[1].error.rmse, 0);
     options.base.width = 32;
     EXPECT_THROW(report::compare(options, noProgress), Error);
+}
+
+TEST(CompareTest, NoShadowsAreMeasuredOverTheSamePixelsAsAllOthers) {
+    auto options = smallOptions("compare_none");
+    options.techniques = {"none", "raytrace:samples=32"};
+    const auto comparison = report::compare(options, noProgress);
+    EXPECT_GT(comparison.results[0].error.rmse, 0.1);
+    EXPECT_EQ(comparison.results[0].error.maximum, 1);
+    EXPECT_EQ(comparison.results[0].shown.mask, comparison.results[1].shown.mask);
+}
+
+TEST(CompareTest, WhatWasNotMeasuredIsNullAndSaid) {
+    auto options = smallOptions("compare_null");
+    options.frames = {0, 1};
+    report::compare(options, noProgress);
+    options.reference = options.folder + "/reference.####.exr";
+    options.sameSamples = false;
+    const auto comparison = report::compare(options, noProgress);
+    const auto results = json::parse(report::resultsJson(comparison));
+    EXPECT_TRUE(results["reference"]["flicker"].is_null());
+    for (const auto& r : results["results"]) {
+        EXPECT_TRUE(r["flicker"].is_null());
+        EXPECT_TRUE(r["error"]["sameSamples"].is_null());
+        EXPECT_EQ(r["error"]["of"], "visibility");
+    }
+    EXPECT_EQ(report::reportPage(comparison).find("Flicker on resting"), std::string::npos);
 }
 
 TEST(CompareTest, InsetsLieWhereTechniquesDiffer) {
@@ -211,6 +237,15 @@ TEST(CompareTest, WrongOptionsAreNamed) {
     EXPECT_NE(messageOf([](auto& o) { o.sweep = "resolution=a"; }).find("not a number"),
               std::string::npos);
     EXPECT_NE(messageOf([](auto& o) { o.techniques = {"vwss:colour=1"}; }).find("colour"),
+              std::string::npos);
+    EXPECT_NE(messageOf([](auto& o) { o.techniques = {"vwss:pattern=random"}; }).find("raytrace"),
+              std::string::npos);
+    EXPECT_NE(messageOf([](auto& o) { o.sweep = "foo=1,2"; }).find("no technique"),
+              std::string::npos);
+    EXPECT_NE(messageOf([](auto& o) {
+                  o.frames = {0, 1};
+                  o.reference = "one.exr";
+              }).find("####"),
               std::string::npos);
 }
 
