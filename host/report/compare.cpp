@@ -6,97 +6,16 @@
 #include <map>
 #include <set>
 
-#include "host/metrics/flip.h"
 #include "host/metrics/image_error.h"
-#include "host/metrics/ssim.h"
 #include "host/report/comparison.h"
 #include "host/report/contender_run.h"
+#include "host/report/frame_error.h"
 #include "runtime/error.h"
 
 namespace penumbra::report {
 namespace {
 
 using Progress = void (*)(const std::string&);
-
-metrics::Picture pictureOf(const SeenFrame& frame) {
-    metrics::Picture picture{frame.width, frame.height, metrics::Encoding::srgb, {}};
-    for (std::size_t c = 0; c < 3; ++c) {
-        metrics::Plane plane(frame.picture.size() / 3);
-        for (std::size_t i = 0; i < plane.size(); ++i)
-            plane[i] = static_cast<float>(frame.picture[3 * i + c]) / 255;
-        picture.planes.push_back(std::move(plane));
-    }
-    return picture;
-}
-
-/// The pixels that count: the reference's where it knows them, so that all contenders are measured
-/// over the same; else the frame's own; all where neither knows.
-std::vector<bool> pixelsThatCount(const SeenFrame& truth, const SeenFrame& frame) {
-    const auto& mask = truth.mask.empty() ? frame.mask : truth.mask;
-    const bool any = std::find(mask.begin(), mask.end(), true) != mask.end();
-    return any ? mask : std::vector<bool>();
-}
-
-/// Errors of a frame; `flipMap` receives the map of the tone-mapped frame.
-FrameError errorOf(const SeenFrame& truth, const SeenFrame& frame, const std::vector<bool>& mask,
-                   metrics::Plane* flipMap) {
-    FrameError error;
-    const auto a = pictureOf(truth), b = pictureOf(frame);
-    const auto whole = metrics::imageError({&a.planes[0], &a.planes[1], &a.planes[2]},
-                                           {&b.planes[0], &b.planes[1], &b.planes[2]}, {});
-    auto flip = metrics::flip(a, b);
-    error.frameRmse255 = 255 * whole.rmse;
-    error.frameFlip = flip.mean;
-    error.frameSsim = metrics::ssim(a, b).mean;
-    if (flipMap) *flipMap = std::move(flip.map);
-    const bool visible = truth.visibility.size() == frame.visibility.size();
-    const auto compared =
-        visible ? metrics::imageError({&truth.visibility}, {&frame.visibility}, mask) : whole;
-    error.rmse = compared.rmse;
-    error.maximum = compared.maximum;
-    error.mean = compared.mean;
-    error.share4 = compared.share[1];
-    error.flip = error.frameFlip;
-    if (visible) {
-        const auto grey = [](const SeenFrame& f) {
-            return metrics::Picture{f.width, f.height, metrics::Encoding::linear, {f.visibility}};
-        };
-        error.flip = metrics::flip(grey(truth), grey(frame), mask).mean;
-    }
-    return error;
-}
-
-void add(FrameError& sum, const FrameError& e) {
-    sum.rmse += e.rmse;
-    sum.maximum = std::max(sum.maximum, e.maximum);
-    sum.mean += e.mean;
-    sum.share4 += e.share4;
-    sum.flip += e.flip;
-    sum.frameRmse255 += e.frameRmse255;
-    sum.frameFlip += e.frameFlip;
-    sum.frameSsim += e.frameSsim;
-}
-
-FrameError scaled(FrameError e, double factor) {
-    for (double* value :
-         {&e.rmse, &e.mean, &e.share4, &e.flip, &e.frameRmse255, &e.frameFlip, &e.frameSsim})
-        *value *= factor;
-    return e;
-}
-
-/// Mean change of visibility since the last frame over receivers that rest.
-std::optional<double> flickerOf(const SeenFrame& last, const SeenFrame& now,
-                                const std::vector<bool>& resting) {
-    if (last.visibility.size() != now.visibility.size() || now.visibility.empty())
-        return std::nullopt;
-    double sum = 0, count = 0;
-    for (std::size_t i = 0; i < now.visibility.size(); ++i) {
-        if (!resting[i]) continue;
-        sum += std::abs(now.visibility[i] - last.visibility[i]);
-        ++count;
-    }
-    return count > 0 ? std::optional(sum / count) : std::nullopt;
-}
 
 /// Mean over the frames that have a value; none where no frame has.
 std::optional<double> meanOf(const std::vector<FrameResult>& frames,
@@ -105,22 +24,6 @@ std::optional<double> meanOf(const std::vector<FrameResult>& frames,
     for (const auto& frame : frames)
         if (frame.*value) sum += *(frame.*value), ++count;
     return count > 0 ? std::optional(sum / count) : std::nullopt;
-}
-
-/// Pixels that show the same point in both frames, to within 1e-5 of its coordinates.
-std::vector<bool> restingPixels(const SeenFrame& last, const SeenFrame& now) {
-    const std::size_t pixels = now.mask.size();
-    std::vector<bool> resting(pixels, false);
-    if (last.positions.size() != 3 * pixels || now.positions.size() != 3 * pixels) return resting;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        bool same = now.mask[i] && last.mask[i];
-        for (std::size_t axis = 0; axis < 3 && same; ++axis) {
-            const float a = last.positions[axis * pixels + i], b = now.positions[axis * pixels + i];
-            same = std::abs(a - b) <= 1e-5F * (1 + std::abs(a));
-        }
-        resting[i] = same;
-    }
-    return resting;
 }
 
 /// Frames against which others are held, kept for the length of the comparison.

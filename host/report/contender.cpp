@@ -48,6 +48,7 @@ void checkSettings(const Contender& contender) {
     const auto& options = contender.options;
     const auto rows = visibility::findTechnique(options.technique).describe();
     std::vector<std::string> names;
+    names.reserve(rows.size());
     for (const auto& row : rows) names.push_back(row.name);
     for (const auto& [key, value] : options.settings) {
         const auto name = key.substr(key.find('.') + 1);
