@@ -175,8 +175,9 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
     ambient_ = kAmbient * irradiance / kPi;
 
     device_ = openDevice(options_);
-    plannedBytes_ = planMemory();
+    planScene();
     makePasses();
+    plannedBytes_ = planFrame();
     std::string key = scene::sceneDigest(scene_);
     for (const auto& [name, value] : header()) key += fmt::format("{}={}\n", name, value);
     fingerprint_ = runtime::digest(key);
@@ -184,7 +185,7 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
 
 Pipeline::~Pipeline() = default;
 
-std::uint64_t Pipeline::planMemory() const {
+void Pipeline::planScene() const {
     runtime::MemoryPlan plan(*device_);
     // Kernels index all planes of an image with 32 bits
     const double millions = static_cast<double>(width_) * height_ / 1e6;
@@ -204,7 +205,21 @@ std::uint64_t Pipeline::planMemory() const {
                  2ULL * static_cast<std::uint64_t>(options_.temporal) * pixels * sizeof(float));
     plan.add(options_.technique, visibility::findTechnique(options_.technique)
                                      .plannedBytes({*device_, options_.settings, width_, height_}));
-    plan.add("geometry", drawnTriangles(scene_) * 3 * 64);
+    plan.check();
+}
+
+std::uint64_t Pipeline::planFrame() const {
+    runtime::MemoryPlan plan(*device_);
+    const auto& mesh = geometry_->mesh();
+    plan.addHeld("scene and images");
+    plan.add(fmt::format("lists and maps of {}", options_.technique), technique_->frameBytes(mesh));
+    const auto lights = std::max<std::size_t>(scene_.lights.size(), 1);
+    if (options_.temporal > 1)
+        plan.add("visibility history",
+                 2ULL * static_cast<std::uint64_t>(options_.temporal - 1) * lights *
+                     static_cast<std::uint64_t>(technique_->channels(mesh)) *
+                     static_cast<std::uint64_t>(shared::gbufferStride(width_ * height_)) *
+                     sizeof(float));
     plan.check();
     return plan.plannedBytes();
 }

@@ -52,7 +52,10 @@ class Pipeline {
   private:
     double secondsOf(int number) const;
     void makePasses();
-    std::uint64_t planMemory() const;
+    /// What can be said before anything is allocated, and what the first frame will add to what is
+    /// held then. Throw Error (exit code 4) with the figures where that does not fit.
+    void planScene() const;
+    std::uint64_t planFrame() const;
     /// Renders into the device's images; repeats where a list was too short. Returns the
     /// repetitions.
     int renderOnDevice(int number, bool keep);

@@ -13,7 +13,11 @@ double megabytes(std::uint64_t bytes) {
 }  // namespace
 
 void MemoryPlan::add(const std::string& label, std::uint64_t bytes) {
-    entries_.push_back({label, bytes});
+    entries_.push_back({label, bytes, true});
+}
+
+void MemoryPlan::addHeld(const std::string& label) {
+    entries_.push_back({label, device_->memory().current, false});
 }
 
 std::uint64_t MemoryPlan::plannedBytes() const {
@@ -38,6 +42,7 @@ void MemoryPlan::check() const {
                                megabytes(sorted[i].bytes));
     const auto limit = device_->memoryLimitBytes();
     const auto maxAlloc = device_->info().maxAllocBytes;
+    std::erase_if(sorted, [](const Entry& e) { return !e.oneBuffer; });
     if (!sorted.empty() && sorted[0].bytes > maxAlloc)
         throw Error(
             fmt::format("out of memory: {} needs {:.1f} MB at once, {} allows {:.1f} MB; use a "

@@ -13,6 +13,8 @@ class MemoryPlan {
   public:
     explicit MemoryPlan(const Device& device) : device_(&device) {}
     void add(const std::string& label, std::uint64_t bytes);
+    /// Adds what the device holds by now, in buffers of any size.
+    void addHeld(const std::string& label);
     std::uint64_t plannedBytes() const;
     /// What is left for buffers that adapt their size (batches of views): the device's limit less
     /// what is planned, less a tenth for the driver.
@@ -24,6 +26,7 @@ class MemoryPlan {
     struct Entry {
         std::string label;
         std::uint64_t bytes;
+        bool oneBuffer;
     };
     const Device* device_;
     std::vector<Entry> entries_;

@@ -37,6 +37,15 @@ void Bvh::plan(const geometry::Mesh& mesh) {
     nodes_.grow(*device_, "tree nodes", static_cast<std::uint64_t>(nodes) * 6 * BVH_WIDTH + 1);
 }
 
+std::uint64_t Bvh::bytesFor(const geometry::Mesh& mesh) {
+    const std::uint64_t leaves =
+        (std::uint64_t{mesh.casterTriangleCount} + BVH_LEAF - 1) / BVH_LEAF;
+    // A node is 8 boxes of 6 floats; the levels above the lowest hold a seventh of its nodes
+    const std::uint64_t nodes = leaves / (BVH_WIDTH - 1) + BVH_MAX_LEVELS;
+    return 4 * std::uint64_t{mesh.triangleCount} * sizeof(std::uint32_t) +  // keys, sorted twice
+           leaves * BVH_LEAF * 10 * sizeof(float) + nodes * 6 * BVH_WIDTH * sizeof(float);
+}
+
 void Bvh::build(const geometry::Mesh& mesh, const scene::Bounds& casters,
                 const glm::dvec3& centre) {
     if (builtVersion_ == mesh.version) return;

@@ -19,6 +19,9 @@ class Bvh {
     /// kernels/visibility/bvh.cl
     void build(const geometry::Mesh& mesh, const scene::Bounds& casters, const glm::dvec3& centre);
 
+    /// Bytes of the tree of a mesh and of its sort.
+    static std::uint64_t bytesFor(const geometry::Mesh& mesh);
+
     const shared::BvhParams& params() const { return params_; }
     const Buffer<float>& nodes() const { return nodes_; }
     const Buffer<float>& leaves() const { return leaves_; }

@@ -73,6 +73,13 @@ void EssmSource::fill(const MapBatch& batch) {
         reduce_.launch(texels(level), {64}, params_, level, pyramid_);
 }
 
+std::uint64_t EssmSource::frameBytes(const Mesh& mesh) const {
+    const auto size = static_cast<std::uint64_t>(settings_.resolution);
+    // Two planes of 4/3 maps, a little more where sizes are odd
+    return casters_.frameBytes(mesh) + receivers_.frameBytes(mesh) + size * size * 4 +
+           size * size * 11 + 4096;
+}
+
 bool EssmSource::grew() {
     const bool receivers = receivers_.grew();
     return casters_.grew() || receivers;

@@ -42,6 +42,8 @@ class EssmSource : public MapSource {
     void fill(const MapBatch& batch) override;
     bool needsWideMaps() const override { return true; }
     bool grew() override;
+    /// Both maps' vertices, the receivers' map and the pyramid.
+    std::uint64_t frameBytes(const Mesh& mesh) const;
     std::uint64_t takeTriangles();
     const shared::EssmParams& params() const { return params_; }
     const Buffer<float>& pyramid() const { return pyramid_; }
@@ -80,6 +82,9 @@ class Essm : public Technique {
   public:
     explicit Essm(const TechniqueContext& context);
     static std::uint64_t plannedBytes(const TechniqueContext& context);
+    std::uint64_t frameBytes(const Mesh& mesh) const override {
+        return multiView_.frameBytes(true) + source_.frameBytes(mesh);
+    }
     void run(const Inputs& inputs, Visibility& visibility) override;
     bool grew() override { return source_.grew(); }
     Counts takeCounts() override;

@@ -61,6 +61,13 @@ void MapRaster::begin(const Inputs& inputs, LightView& view, Buffer<float>& samp
         drawnTriangles_ += mesh_->casterTriangleCount;
 }
 
+std::uint64_t MapRaster::frameBytes(const Mesh& mesh) const {
+    const std::uint64_t vertices = 3 * sizeof(float) * (std::uint64_t{mesh.vertexCount} + 16);
+    const std::uint64_t triangles = (MAP_TRIANGLE_PLANES + 2) * sizeof(float) *
+                                    (std::uint64_t{mesh.triangleCount} + 2 * kMostLanes);
+    return vertices + (ownsMaps_ ? triangles : 0);
+}
+
 void MapRaster::project(float kx, float ky) {
     auto params = params_;
     params.kx = kx;

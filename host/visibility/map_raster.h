@@ -35,6 +35,8 @@ class MapRaster : public MapSource {
     void fill(const MapBatch& batch) override;
     bool needsWideMaps() const override { return !ownsMaps_; }
     bool grew() override { return tiles_.grew(); }
+    /// Bytes of projected vertices and shared triangles, which the first frame allocates.
+    std::uint64_t frameBytes(const Mesh& mesh) const;
     /// Triangles that the views of the frame's lights drew, per map (waits).
     std::uint64_t takeTriangles();
 

@@ -12,6 +12,7 @@
 namespace penumbra::visibility {
 namespace {
 
+constexpr std::uint64_t kSampleBytes = 4096 * 2 * sizeof(float);
 constexpr int kStreamedViews = 8;  // maps that a CPU holds at a time: more fall out of its caches
 
 }  // namespace
@@ -55,6 +56,14 @@ std::uint64_t MultiView::plannedBytes(const MapSettings& settings, int width, in
            pixels / shrink * (RECEIVER_PLANES + 1) * sizeof(float);
 }
 
+std::uint64_t MultiView::frameBytes(bool wideMaps) const {
+    const auto size = static_cast<std::uint64_t>(settings_.resolution);
+    const std::uint64_t texel = settings_.depthBits == 32 ? 4U
+                                : wideMaps                ? 6U
+                                                          : 2U;  // 16 bits are packed from 32
+    return (size * size + 16) * texel + kSampleBytes;
+}
+
 int MultiView::batchSize(const LightView& view, bool wide) const {
     const auto texels = static_cast<std::uint64_t>(view.params.mapStride);
     const std::uint64_t perView = texels * ((settings_.depthBits == 16 ? 2U : 0U) +
@@ -73,6 +82,8 @@ int MultiView::batchSize(const LightView& view, bool wide) const {
     else if (info.isCpu)
         batch = std::max(kStreamedViews, info.computeUnits);
     batch = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(batch), most));
+    // A tenth or two are left free for lists that grow, but not at the price of the only map
+    if (batch < 1 && perView <= usable && perView <= info.maxAllocBytes) batch = 1;
     if (batch < 1)
         throw Error(
             fmt::format(

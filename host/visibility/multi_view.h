@@ -68,6 +68,8 @@ class MultiView {
 
     /// Receivers and one depth map: the least that it works with.
     static std::uint64_t plannedBytes(const MapSettings& settings, int width, int height);
+    /// Bytes of one map and of a light's samples, which the first frame allocates.
+    std::uint64_t frameBytes(bool wideMaps) const;
     /// Enqueues one light's visibility. `views` is the inputs' light with the samples that are the
     /// views; what lies outside of them is traced to the inputs' own samples.
     void run(const Inputs& inputs, const scene::AreaLight& views, MapSource& source,

@@ -29,6 +29,9 @@ class Mvr : public Technique {
   public:
     explicit Mvr(const TechniqueContext& context);
     static std::uint64_t plannedBytes(const TechniqueContext& context);
+    std::uint64_t frameBytes(const Mesh& mesh) const override {
+        return multiView_.frameBytes(source_.needsWideMaps()) + source_.frameBytes(mesh);
+    }
     void run(const Inputs& inputs, Visibility& visibility) override {
         multiView_.run(inputs, inputs.light, source_, reader_, visibility);
     }

@@ -35,6 +35,9 @@ class Mvss : public Technique {
   public:
     explicit Mvss(const TechniqueContext& context);
     static std::uint64_t plannedBytes(const TechniqueContext& context);
+    std::uint64_t frameBytes(const Mesh& mesh) const override {
+        return multiView_.frameBytes(source_.needsWideMaps()) + source_.frameBytes(mesh);
+    }
     void run(const Inputs& inputs, Visibility& visibility) override;
     bool grew() override { return source_.grew(); }
     Counts takeCounts() override;

@@ -52,6 +52,9 @@ class Pcss : public Technique {
   public:
     explicit Pcss(const TechniqueContext& context);
     static std::uint64_t plannedBytes(const TechniqueContext& context);
+    std::uint64_t frameBytes(const Mesh& mesh) const override {
+        return multiView_.frameBytes(source_.needsWideMaps()) + source_.frameBytes(mesh);
+    }
     void run(const Inputs& inputs, Visibility& visibility) override;
     bool grew() override { return source_.grew(); }
     Counts takeCounts() override;

@@ -37,6 +37,10 @@ class Points {
     bool grow(std::uint64_t count);
     /// Bytes of the first capacity.
     static std::uint64_t plannedBytes(Precision precision);
+    /// Bytes of the opacities that points carry where anything is blended.
+    std::uint64_t keyBytes(const geometry::Mesh& mesh) const {
+        return mesh.hasBlend ? std::uint64_t{capacity_} * sizeof(std::uint32_t) : 0;
+    }
     bool grewTiles() { return tiles_.grew(); }
     const PointBuffers& buffers() const { return buffers_; }
 

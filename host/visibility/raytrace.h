@@ -44,6 +44,7 @@ class Raytrace : public Technique {
                  const glm::dvec3& centre) override {
         bvh_.build(mesh, casters, centre);
     }
+    std::uint64_t frameBytes(const Mesh& mesh) const override { return Bvh::bytesFor(mesh); }
     void run(const Inputs& inputs, Visibility& visibility) override;
     int channels(const Mesh& mesh) const override { return mesh.hasBlend ? 3 : 1; }
 

@@ -56,6 +56,9 @@ class Technique {
     /// Once a frame, before the lights: trees and sorts that all lights share.
     virtual void prepare(const Mesh&, const scene::Bounds& /*casters*/,
                          const glm::dvec3& /*centre*/) {}
+    /// Bytes that the first frame will allocate at the least; the rest is held by now, or grows
+    /// with lists whose length only the device knows.
+    virtual std::uint64_t frameBytes(const Mesh&) const { return 0; }
     /// Enqueues one light's visibility. Allocates only when sizes change.
     virtual void run(const Inputs& inputs, Visibility& visibility) = 0;
     /// Waits for the device; true if a list was too short and has grown: repeat the frame.

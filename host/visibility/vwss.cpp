@@ -53,6 +53,8 @@ class Vwss::Source : public MapSource {
         }
     }
 
+    std::uint64_t keyBytes(const Mesh& mesh) const { return points_.keyBytes(mesh); }
+
     double density() const override { return settings_.density; }
 
     bool needsWideMaps() const override { return !settings_.buffered || warp_.needsWideMaps(); }
@@ -94,6 +96,10 @@ std::uint64_t Vwss::plannedBytes(const TechniqueContext& context) {
 }
 
 Vwss::~Vwss() = default;
+
+std::uint64_t Vwss::frameBytes(const Mesh& mesh) const {
+    return multiView_.frameBytes(source_->needsWideMaps()) + source_->keyBytes(mesh);
+}
 
 void Vwss::run(const Inputs& inputs, Visibility& visibility) {
     multiView_.run(inputs, inputs.light, *source_, reader_, visibility);

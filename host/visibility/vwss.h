@@ -40,6 +40,7 @@ class Vwss : public Technique {
     explicit Vwss(const TechniqueContext& context);
     static std::uint64_t plannedBytes(const TechniqueContext& context);
     ~Vwss() override;
+    std::uint64_t frameBytes(const Mesh& mesh) const override;
     void run(const Inputs& inputs, Visibility& visibility) override;
     bool grew() override;
     Counts takeCounts() override;
