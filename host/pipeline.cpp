@@ -231,6 +231,9 @@ void Pipeline::makePasses() {
     gbuffer_ = std::make_unique<gbuffer::GBufferPass>(*program_, width_, height_);
     technique_ = visibility::findTechnique(options_.technique)
                      .make({*device_, options_.settings, width_, height_});
+    requireUsage(!aovs_.depthMaps || technique_->hasDepthMaps(),
+                 "--aov depth-maps: technique {} makes none; vwss, mvr, mvss, pcss and essm do",
+                 options_.technique);
     if (geometry_->mesh().hasBlend)
         warnOnce(
             "blended and transmissive surfaces are seen as opaque where their alpha is above 0.5, "

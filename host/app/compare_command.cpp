@@ -26,8 +26,9 @@ int runCompare(const CompareArguments& arguments) {
     options.techniques = arguments.techniques;
     options.reference = arguments.reference;
     options.referenceSamples = arguments.referenceSamples;
-    requireUsage(arguments.frames != "all",
-                 "--frames all is not for compare; name them, as 0..47 does");
+    requireUsage(
+        arguments.frames != "all",
+        "--frames all: each technique would render the whole clip; name the frames, as 0..47 does");
     options.frames = parseFrames(arguments.frames, 0);
     options.repeats = arguments.repeats;
     options.sweep = arguments.sweep;

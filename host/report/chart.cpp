@@ -42,7 +42,7 @@ class Axis {
                               : (value - low_) / (high_ - low_);
         return from_ + t * (to_ - from_);
     }
-    std::vector<double> ticks() const {
+    std::vector<double> ticks(bool whole = false) const {
         std::vector<double> values;
         if (log_) {
             for (double decade = std::pow(10, std::floor(std::log10(low_))); decade <= high_;
@@ -57,10 +57,11 @@ class Axis {
             return values;
         }
         const double raw = (high_ - low_) / 5, power = std::pow(10, std::floor(std::log10(raw)));
-        const double step = power * (raw / power < 1.5   ? 1
-                                     : raw / power < 3.5 ? 2
-                                     : raw / power < 7.5 ? 5
-                                                         : 10);
+        double step = power * (raw / power < 1.5   ? 1
+                               : raw / power < 3.5 ? 2
+                               : raw / power < 7.5 ? 5
+                                                   : 10);
+        if (whole) step = std::max(std::ceil(step), 1.0);
         for (double v = std::ceil(low_ / step) * step; v <= high_ * (1 + 1e-9); v += step)
             values.push_back(std::abs(v) < step / 1e6 ? 0 : v);
         return values;
@@ -83,7 +84,7 @@ std::string colour(std::size_t index) {
 
 std::string frame(const Axis& x, const Axis& y, const ChartLabels& labels) {
     std::string svg = text(kLeft, 16, "start", labels.title, " class=\"name\"");
-    for (const double tick : x.ticks())
+    for (const double tick : x.ticks(labels.wholeX))
         svg += fmt::format("<path class=\"axis\" d=\"M{:.1f} {}V{}\"/>", x.at(tick), kTop,
                            kHeight - kBottom) +
                text(x.at(tick), kHeight - kBottom + 16, "middle", fmt::format("{:.4g}", tick));

@@ -210,7 +210,7 @@ std::string charts(const Comparison& c) {
     for (const auto& r : c.results) scatter.push_back({r.contender.label, {r.ms}, {r.error.rmse}});
     std::string html = "<h2>Error against time</h2><div class=\"charts\">";
     html += chart(scatter, {"Error against time, with the Pareto front", "ms of shadows",
-                            "RMSE of visibility", true, true, true});
+                            "RMSE of visibility", true, true, false, true});
     if (c.options.frames.size() > 1) {
         std::vector<Series> errors, flicker;
         for (const auto& r : c.results) {
@@ -225,10 +225,11 @@ std::string charts(const Comparison& c) {
             errors.push_back(error);
             flicker.push_back(change);
         }
-        html += chart(errors, {"Error over time", "frame", "RMSE of visibility"});
+        html +=
+            chart(errors, {"Error over time", "frame", "RMSE of visibility", false, false, true});
         if (c.reference.flicker)
-            html += chart(flicker,
-                          {"Flicker on resting receivers", "frame", "mean change of visibility"});
+            html += chart(flicker, {"Flicker on resting receivers", "frame",
+                                    "mean change of visibility", false, false, true});
     }
     return html + "</div>";
 }

@@ -40,6 +40,7 @@ struct Series {
 struct ChartLabels {
     std::string title, x, y;
     bool logX = false, logY = false;
+    bool wholeX = false;  ///< x counts something: no ticks between whole numbers
     bool points = false;  ///< a point each with its name, and the Pareto front; else lines
 };
 /// An SVG chart; colours are those of the style sheet, in the order of the series.

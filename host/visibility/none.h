@@ -13,6 +13,7 @@ struct NoSettings {
 class None : public Technique {
   public:
     explicit None(const TechniqueContext& context);
+    bool hasDepthMaps() const override { return false; }
     void run(const Inputs& inputs, Visibility& visibility) override;
 };
 

@@ -39,6 +39,7 @@ struct RaytraceSettings {
 class Raytrace : public Technique {
   public:
     explicit Raytrace(const TechniqueContext& context);
+    bool hasDepthMaps() const override { return false; }
     static std::uint64_t plannedBytes(const TechniqueContext&) { return 0; }
     void prepare(const Mesh& mesh, const scene::Bounds& casters,
                  const glm::dvec3& centre) override {

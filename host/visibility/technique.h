@@ -56,6 +56,8 @@ class Technique {
     /// Once a frame, before the lights: trees and sorts that all lights share.
     virtual void prepare(const Mesh&, const scene::Bounds& /*casters*/,
                          const glm::dvec3& /*centre*/) {}
+    /// False if there are no depth maps to keep for --aov depth-maps.
+    virtual bool hasDepthMaps() const { return true; }
     /// Bytes that the first frame will allocate at the least; the rest is held by now, or grows
     /// with lists whose length only the device knows.
     virtual std::uint64_t frameBytes(const Mesh&) const { return 0; }

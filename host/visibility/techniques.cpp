@@ -47,7 +47,9 @@ const std::vector<TechniqueEntry>& techniques() {
          describeSettings<PcssSettings>, Pcss::plannedBytes, make<Pcss>},
         {"essm", "exponential soft shadow maps: one map of exponentials, filtered beforehand",
          "[MLSM] 2, 8",
-         "occluder fusion, thin parts, light leaking behind near blockers, missing contact shadows",
+         "occluder fusion, thin parts, light leaking behind near blockers, missing contact "
+         "shadows, a "
+         "grid of the pyramid's texels in wide penumbrae",
          describeSettings<EssmSettings>, Essm::plannedBytes, make<Essm>},
         {"raytrace",
          "the reference: one ray per light sample and pixel, opacity and colour along it", "",

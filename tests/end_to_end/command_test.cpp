@@ -337,6 +337,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadUse{"render -o OUT/a.png --size 0x5", 2, "--size"},
                     BadUse{"render -o OUT/a.png --aov depth", 2, "EXR"},
                     BadUse{"render -o OUT/a.exr --aov colour", 2, "allowed: all"},
+                    BadUse{"render -o OUT/a.exr --aov depth-maps --technique raytrace", 2,
+                           "raytrace makes none"},
                     BadUse{"render -o OUT/a.png --camera absent", 2, "allowed: auto"},
                     BadUse{"render -o OUT/a.png --device absent", 3, "no OpenCL device matches"},
                     BadUse{"render -o OUT/a.png --memory 20", 4, "out of memory"},

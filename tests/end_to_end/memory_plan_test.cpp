@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The memory plan holds: what it admits renders, with the same bytes as without a limit, and what it
-// does not admit is refused before the first frame.
+// The memory plan holds: what it admits renders, with the same bytes as without a limit, and what
+// it does not admit is refused before the first frame.
 #include <cstring>
 #include <nlohmann/json.hpp>
 

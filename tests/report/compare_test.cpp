@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "host/metrics/image_error.h"
 #include "host/report/comparison.h"
 #include "host/report/page_parts.h"
 #include "runtime/error.h"
@@ -203,6 +204,17 @@ TEST(CompareSlowTest, TheBuiltinSceneFromPointsIsWithinTwoLevelsOfRasterisedMaps
     std::printf("[ RMSE     ] vwss against mvr: %.2f of 255 in the frame, %.4f of visibility\n",
                 vwss.frameRmse255, vwss.rmse);
     EXPECT_LT(vwss.frameRmse255, 2);
+    // Inside of the shadow alone
+    const auto& rasterised = toMvr.reference.shown;
+    std::vector<bool> shadow(rasterised.mask);
+    for (std::size_t i = 0; i < shadow.size(); ++i)
+        shadow[i] = shadow[i] && rasterised.visibility[i] < 1;
+    const auto inside =
+        metrics::imageError({&rasterised.visibility}, {&toMvr.results[0].shown.visibility}, shadow);
+    std::printf("[ RMSE     ] vwss against mvr inside of the shadow: %.4f of %zu pixels\n",
+                inside.rmse, inside.pixels);
+    EXPECT_GT(inside.pixels, 5000U);
+    EXPECT_LT(inside.rmse, 0.04);
     options.reference = "raytrace:samples=256";
     const auto toRays = report::compare(options, noProgress);
     std::vector<double> errors;
