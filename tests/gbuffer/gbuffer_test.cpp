@@ -28,7 +28,7 @@ SceneBuilder randomTriangles(unsigned seed, int count) {
     builder.material().doubleSided = true;
     for (int i = 0; i < count; ++i) {
         std::vector<glm::vec3> corners;
-        for (int c = 0; c < 3; ++c) corners.emplace_back(at(random), at(random), deep(random));
+        for (int c = 0; c < 3; ++c) corners.push_back({at(random), at(random), deep(random)});
         builder.addMesh(corners, {0, 1, 2});
     }
     return builder;

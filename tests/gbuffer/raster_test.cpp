@@ -82,8 +82,8 @@ std::vector<PixelTriangle> gridMesh(std::mt19937& random, int columns, int rows,
     for (int r = 0; r <= rows; ++r)
         for (int c = 0; c <= columns; ++c) {
             const bool innerX = c > 0 && c<columns, innerY = r> 0 && r < rows;
-            const glm::dvec2 p(1 + c * dx + (innerX ? move(random) * dx : 0),
-                               1 + r * dy + (innerY ? move(random) * dy : 0));
+            const glm::dvec2 p{1 + c * dx + (innerX ? move(random) * dx : 0),
+                               1 + r * dy + (innerY ? move(random) * dy : 0)};
             v.push_back(glm::round(p / step) * step);
         }
     std::vector<PixelTriangle> triangles;
@@ -137,9 +137,9 @@ TEST(Raster, NeedlesAndRandomTrianglesCoverWhatTheTwinCovers) {
     std::uniform_real_distribution<double> x(0, 61), y(0, 37), thin(-0.05, 0.05);
     std::vector<PixelTriangle> triangles;
     for (int i = 0; i < 120; ++i) {
-        const glm::dvec2 a(x(random), y(random)), b(x(random), y(random));
-        const glm::dvec2 c = i % 2 ? a + (b - a) * 0.3 + glm::dvec2(thin(random), thin(random))
-                                   : glm::dvec2(x(random), y(random));
+        const glm::dvec2 a{x(random), y(random)}, b{x(random), y(random)};
+        const glm::dvec2 c = i % 2 ? a + (b - a) * 0.3 + glm::dvec2{thin(random), thin(random)}
+                                   : glm::dvec2{x(random), y(random)};
         PixelTriangle t{a, b, c};
         for (auto& v : t) v = glm::round(v * 4096.0) / 4096.0;
         triangles.push_back(t);
@@ -156,7 +156,7 @@ TEST(Raster, NearestTriangleWinsAndTiesGoToTheLowestIndex) {
     builder.material().doubleSided = true;
     for (int i = 0; i < 80; ++i) {
         PixelTriangle t;
-        for (auto& v : t) v = glm::round(glm::dvec2(x(random), y(random)) * 64.0) / 64.0;
+        for (auto& v : t) v = glm::round(glm::dvec2{x(random), y(random)} * 64.0) / 64.0;
         triangles.push_back(t);
         depths.push_back(static_cast<int>(random() % 5));
         builder.addMesh({worldOf(t[0], depths.back()), worldOf(t[1], depths.back()),
@@ -248,7 +248,7 @@ TEST(Raster, TrianglesAllAroundTheCameraAreSeenWhereRaysHitThem) {
         builder.material().doubleSided = true;
         for (int i = 0; i < 60; ++i) {
             std::vector<glm::vec3> v;
-            for (int c = 0; c < 3; ++c) v.emplace_back(at(random), at(random), at(random));
+            for (int c = 0; c < 3; ++c) v.push_back({at(random), at(random), at(random)});
             triangles.push_back({v[0], v[1], v[2]});
             builder.addMesh(v, {0, 1, 2});
         }

@@ -23,8 +23,8 @@ scene::Scene cloud(unsigned seed, std::size_t count = 99) {
     builder.addMesh({}, {});
     auto& p = builder.scene().meshes[0].primitives[0];
     for (std::size_t i = 0; i < count; ++i) {
-        p.positions.emplace_back(at(random), at(random), at(random));
-        p.normals.push_back(glm::normalize(glm::vec3(at(random), at(random), at(random) + 2)));
+        p.positions.push_back({at(random), at(random), at(random)});
+        p.normals.push_back(glm::normalize(glm::vec3{at(random), at(random), at(random) + 2}));
         p.indices.push_back(static_cast<std::uint32_t>(i));
     }
     return builder.scene();
@@ -71,12 +71,12 @@ void addSkin(scene::Scene& scene, unsigned seed, const glm::dvec3& shift = glm::
     scene::Skin skin;
     for (int j = 0; j < 10; ++j) {
         scene::Node node;
-        node.translation = shift + glm::dvec3(unit(random), unit(random), unit(random));
+        node.translation = shift + glm::dvec3{unit(random), unit(random), unit(random)};
         node.scale = glm::dvec3(0.8 + 0.4 * unit(random), 1, 1.2);
         node.rotation = glm::normalize(glm::dquat(1, 0.3 * unit(random), 0.2, 0.3 * unit(random)));
         skin.joints.push_back(static_cast<int>(scene.nodes.size()));
         skin.jointFromMesh.push_back(
-            glm::translate(glm::dmat4(1), glm::dvec3(-unit(random), 0.2, unit(random))));
+            glm::translate(glm::dmat4(1), glm::dvec3{-unit(random), 0.2, unit(random)}));
         scene.order.push_back(static_cast<int>(scene.nodes.size()));
         scene.nodes.push_back(node);
     }
@@ -137,8 +137,8 @@ TEST(Pose, MorphTargetsMovePositionsAndNormals) {
     for (int t = 0; t < 3; ++t) {
         scene::MorphTarget target;
         for (std::size_t i = 0; i < p.positions.size(); ++i) {
-            if (t != 1) target.positions.emplace_back(at(random), at(random), at(random));
-            if (t != 2) target.normals.emplace_back(at(random), at(random), at(random));
+            if (t != 1) target.positions.push_back({at(random), at(random), at(random)});
+            if (t != 2) target.normals.push_back({at(random), at(random), at(random)});
         }
         p.targets.push_back(target);
     }

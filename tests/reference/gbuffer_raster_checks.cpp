@@ -136,7 +136,7 @@ void expectLikeTwin(const RasterImage& image, const RasterReference& twin, doubl
     // The comparison knows by how much snapping may move a depth; what it cannot know is a vertex
     // that float snaps to the other neighbour and that moves an edge over a centre: 1 in 2000
     EXPECT_LE(difference.wrong, pixels / 2000) << image.width << " x " << image.height;
-    EXPECT_LE(difference.decided, pixels / 50 + 1) << image.width << " x " << image.height;
+    EXPECT_LE(difference.decided, pixels / 50 + 2) << image.width << " x " << image.height;
     EXPECT_GT(difference.covered, share * pixels);
 }
 
@@ -147,12 +147,12 @@ SceneBuilder overlappingTriangles(unsigned seed, int count) {
     SceneBuilder builder;
     builder.material().doubleSided = true;
     for (int i = 0; i < count; ++i) {
-        const glm::vec3 first(at(random), at(random), deep(random));
+        const glm::vec3 first{at(random), at(random), deep(random)};
         std::vector<glm::vec3> corners{first};
         for (int c = 0; c < 2; ++c)
             corners.push_back(i % 3
-                                  ? glm::vec3(at(random), at(random), deep(random))
-                                  : first + glm::vec3(small(random), small(random), small(random)));
+                                  ? glm::vec3{at(random), at(random), deep(random)}
+                                  : first + glm::vec3{small(random), small(random), small(random)});
         builder.addMesh(corners, {0, 1, 2});
     }
     return builder;
@@ -166,7 +166,7 @@ SceneBuilder surroundingTriangles(unsigned seed, int count) {
     builder.material().doubleSided = true;
     for (int i = 0; i < count; ++i) {
         std::vector<glm::vec3> corners;
-        for (int c = 0; c < 3; ++c) corners.emplace_back(at(random), at(random), at(random) + 4.0F);
+        for (int c = 0; c < 3; ++c) corners.push_back({at(random), at(random), at(random) + 4.0F});
         builder.addMesh(corners, {0, 1, 2});
     }
     return builder;
@@ -192,7 +192,7 @@ SceneBuilder texturedTriangles(unsigned seed, int count, scene::AlphaMode mode) 
         auto& p = scene.meshes[m].primitives[0];
         for (std::size_t i = 0; i < p.positions.size(); ++i) {
             p.uvs[0].emplace_back(0, 0);  // the set that must not be read
-            p.uvs[1].emplace_back(uv(random), uv(random));
+            p.uvs[1].push_back({uv(random), uv(random)});
             // Multiples of 1/255 survive being packed into bytes
             const auto byte = std::round(unit(random) * 255);
             if (m % 2) p.colors.emplace_back(1, 1, 1, byte / 255);
@@ -211,8 +211,8 @@ SceneBuilder exactTriangles(unsigned seed, int count, int layers, glm::dvec2 ext
         const auto z = static_cast<float>(random() % static_cast<unsigned>(layers));
         std::vector<glm::vec3> corners;
         for (int c = 0; c < 3; ++c)
-            corners.emplace_back(std::round(x(random) * 64) / 64, -std::round(y(random) * 64) / 64,
-                                 z);
+            corners.emplace_back(
+                glm::dvec3{std::round(x(random) * 64) / 64, -std::round(y(random) * 64) / 64, z});
         builder.addMesh(corners, {0, 1, 2});
     }
     return builder;

@@ -39,7 +39,7 @@ Points randomPoints(int count, bool disk, unsigned seed) {
     std::uniform_real_distribution<double> place(-1, 1);
     Points points;
     while (static_cast<int>(points.size()) < count) {
-        const glm::dvec2 p(place(random), place(random));
+        const glm::dvec2 p{place(random), place(random)};
         if (inside(p, disk)) points.push_back(p);
     }
     return points;

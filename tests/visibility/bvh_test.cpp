@@ -23,11 +23,11 @@ TreeMesh soup(int count, Casters casters, const glm::vec3& centre = glm::vec3(0)
     std::uniform_real_distribution<float> place(-1, 1);
     TreeMesh mesh;
     for (int t = 0; t < count; ++t) {
-        const glm::vec3 at(3 * place(random), place(random), 2 * place(random));
+        const glm::vec3 at{3 * place(random), place(random), 2 * place(random)};
         const float size = t % 17 == 0 ? 1.0F : 0.05F;
         for (int c = 0; c < 3; ++c)
             mesh.corners.push_back(centre + at +
-                                   size * glm::vec3(place(random), place(random), place(random)));
+                                   size * glm::vec3{place(random), place(random), place(random)});
         mesh.casts.push_back(casters == Casters::all || (casters == Casters::some && t % 3 != 1));
     }
     return mesh;

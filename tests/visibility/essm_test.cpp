@@ -24,7 +24,7 @@ constexpr int kReceivers = 701;
 /// A plane that the map sees, and rectangles of casters of any depth before it.
 struct Case {
     Case(unsigned seed, int resolution) : random(seed), view{0.7, 0.9, 0, 0, resolution} {
-        normal = glm::normalize(glm::dvec3(between(-1, 1), between(-1, 1), between(-1.5, -0.6)));
+        normal = glm::normalize(glm::dvec3{between(-1, 1), between(-1, 1), between(-1.5, -0.6)});
         distance = between(2, 3.5);
         settings.nearZ = view.near;
         settings.range = between(3, 6);
@@ -32,8 +32,8 @@ struct Case {
         settings.constantTexels = 0.25;
         settings.halfSize = {between(0.1, 0.4), between(0.1, 0.4)};
         for (int i = 0; i < kReceivers; ++i) {
-            const glm::dvec3 ray(view.tanHalfFov * between(-1, 1), view.tanHalfFov * between(-1, 1),
-                                 1);
+            const glm::dvec3 ray{view.tanHalfFov * between(-1, 1), view.tanHalfFov * between(-1, 1),
+                                 1};
             const double z = distance * normal.z / glm::dot(normal, ray);
             receivers.push_back({z > 1 && z < 20 ? ray * z : ray * distance, normal});
             if (i % 7 == 0) receivers.back().normal = grazing(receivers.back().origin);
@@ -45,8 +45,8 @@ struct Case {
     }
     /// A normal whose plane passes within the light or near to it.
     glm::dvec3 grazing(const glm::dvec3& origin) {
-        const glm::dvec3 to = glm::dvec3(between(-0.3, 0.3), between(-0.3, 0.3), 0) - origin;
-        return glm::normalize(glm::cross(to, glm::dvec3(between(-1, 1), between(-1, 1), 0.3)));
+        const glm::dvec3 to = glm::dvec3{between(-0.3, 0.3), between(-0.3, 0.3), 0} - origin;
+        return glm::normalize(glm::cross(to, glm::dvec3{between(-1, 1), between(-1, 1), 0.3}));
     }
     void fillMaps() {
         const double middle = 0.5 * view.resolution;

@@ -68,7 +68,7 @@ TEST(LightView, TwoMultiplyAddsPerViewEqualTheFullMatrix) {
         std::uniform_real_distribution<double> unit(0, 1);
         double worst = 0, worstDepth = 0;
         for (int i = 0; i < 100000; ++i) {
-            const glm::dvec3 share(unit(random), unit(random), unit(random));
+            const glm::dvec3 share{unit(random), unit(random), unit(random)};
             const glm::vec3 rebased(glm::mix(bounds.low, bounds.high, share) - bounds.centre());
             const auto s = static_cast<std::size_t>(i) % light.samples.size();
             const glm::vec3 q = lightSpace(view, rebased);

@@ -45,7 +45,7 @@ struct Image {
         std::vector<glm::dvec3> normals, origins;
         for (int k = 0; k < 3; ++k) {
             normals.push_back(
-                glm::normalize(glm::dvec3(0.3 * unit(random), 0.3 * unit(random), 1)));
+                glm::normalize(glm::dvec3{0.3 * unit(random), 0.3 * unit(random), 1}));
             origins.emplace_back(0, 0, 4 * unit(random));
         }
         for (int y = 0; y < h; ++y)

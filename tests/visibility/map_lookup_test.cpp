@@ -22,17 +22,17 @@ constexpr int kReceivers = 1003, kViews = 5, kFirstBatch = 3;
 struct Case {
     Case(unsigned seed, int resolution) : random(seed), view{0.7, 0.9, 0.4, 0.3, resolution} {
         const glm::dvec3 normal =
-            glm::normalize(glm::dvec3(between(-1, 1), between(-1, 1), between(-1.2, -0.4)));
+            glm::normalize(glm::dvec3{between(-1, 1), between(-1, 1), between(-1.2, -0.4)});
         const double distance = between(2, 4);
         for (int i = 0; i < kReceivers; ++i) {
             // Some views do not hold all of them: rays up to a tenth beyond the map's border
-            const glm::dvec3 ray(1.1 * view.tanHalfFov * between(-1, 1),
-                                 1.1 * view.tanHalfFov * between(-1, 1), 1);
+            const glm::dvec3 ray{1.1 * view.tanHalfFov * between(-1, 1),
+                                 1.1 * view.tanHalfFov * between(-1, 1), 1};
             const double z = distance * normal.z / glm::dot(normal, ray);
             receivers.push_back({z > 0.3 && z < 30 ? ray * z : ray * distance, normal});
         }
         for (int v = 0; v < kViews; ++v) {
-            samples.emplace_back(view.halfWidth * between(-1, 1), view.halfHeight * between(-1, 1));
+            samples.push_back({view.halfWidth * between(-1, 1), view.halfHeight * between(-1, 1)});
             maps.push_back(mapAbout(normal, distance, samples.back()));
         }
     }

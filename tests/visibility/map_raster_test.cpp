@@ -33,11 +33,11 @@ std::vector<glm::dvec3> soup(int count, unsigned seed) {
     std::uniform_real_distribution<double> place(-1.2, 1.2), extent(0.01, 0.4);
     std::vector<glm::dvec3> corners{{-1.5, 0.1, -1.2}, {1.6, 0.2, -1}, {0.1, -0.2, 1.7}};
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 centre(place(random), 0.8 * place(random) + 1, place(random));
+        const glm::dvec3 centre{place(random), 0.8 * place(random) + 1, place(random)};
         const double size = extent(random) * extent(random) * 4;
         for (int c = 0; c < 3; ++c)
             corners.push_back(centre +
-                              size * glm::dvec3(place(random), place(random), place(random)));
+                              size * glm::dvec3{place(random), place(random), place(random)});
     }
     return corners;
 }

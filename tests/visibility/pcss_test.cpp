@@ -25,11 +25,11 @@ constexpr int kReceivers = 1003, kRowOfReceivers = 37;
 struct Case {
     Case(unsigned seed, int resolution, int searchTaps, int filterTaps)
         : random(seed), view{0.7, 0.9, 0, 0, resolution} {
-        normal = glm::normalize(glm::dvec3(between(-1, 1), between(-1, 1), between(-1, -0.3)));
+        normal = glm::normalize(glm::dvec3{between(-1, 1), between(-1, 1), between(-1, -0.3)});
         distance = between(2, 4);
         for (int i = 0; i < kReceivers; ++i) {
-            const glm::dvec3 ray(1.1 * view.tanHalfFov * between(-1, 1),
-                                 1.1 * view.tanHalfFov * between(-1, 1), 1);
+            const glm::dvec3 ray{1.1 * view.tanHalfFov * between(-1, 1),
+                                 1.1 * view.tanHalfFov * between(-1, 1), 1};
             const double z = distance * normal.z / glm::dot(normal, ray);
             receivers.push_back({z > 1 && z < 30 ? ray * z : ray * distance, normal});
             // Some turn away from the light's centre, but not from all of it
@@ -53,8 +53,8 @@ struct Case {
     }
     /// A normal whose plane passes within the light.
     glm::dvec3 grazing(const glm::dvec3& origin) {
-        const glm::dvec3 to = glm::dvec3(between(-0.3, 0.3), between(-0.3, 0.3), 0) - origin;
-        return glm::normalize(glm::cross(to, glm::dvec3(between(-1, 1), between(-1, 1), 0.3)));
+        const glm::dvec3 to = glm::dvec3{between(-0.3, 0.3), between(-0.3, 0.3), 0} - origin;
+        return glm::normalize(glm::cross(to, glm::dvec3{between(-1, 1), between(-1, 1), 0.3}));
     }
     void fillMap() {
         const double middle = 0.5 * view.resolution, at = distance * normal.z;

@@ -30,7 +30,7 @@ struct Case {
         axes[2] = unit();
         axes[0] = glm::normalize(glm::cross(axes[2], unit()));
         axes[1] = glm::cross(axes[2], axes[0]);
-        centre = glm::dvec3(between(-2, 2), between(-2, 2), between(-2, 2));
+        centre = glm::dvec3{between(-2, 2), between(-2, 2), between(-2, 2)};
         view = {0.6, 0.8, 0.7, 0.3, 93};
         image.width = kWidth;
         image.height = kHeight;
@@ -54,15 +54,15 @@ struct Case {
         return std::uniform_real_distribution<double>(low, high)(random);
     }
     glm::dvec3 unit() {
-        return glm::normalize(glm::dvec3(between(-1, 1), between(-1, 1), between(-1, 1)));
+        return glm::normalize(glm::dvec3{between(-1, 1), between(-1, 1), between(-1, 1)});
     }
     /// Most pixels lie before the light and face it; some are background, some receive nothing.
     void addPixel(std::size_t i) {
         const double z = between(-1, 7);
         glm::dvec3 normal = unit();
         if (i % 3) normal = glm::normalize(normal - 1.5 * axes[2]);
-        const glm::vec3 at(centre + axes[0] * between(-3, 3) + axes[1] * between(-3, 3) +
-                           axes[2] * z);
+        const glm::vec3 at{centre + axes[0] * between(-3, 3) + axes[1] * between(-3, 3) +
+                           axes[2] * z};
         for (std::size_t k = 0; k < 3; ++k) {
             planes[(GB_POSITION + k) * stride + i] = at[static_cast<int>(k)];
             planes[(GB_GEOMETRIC + k) * stride + i] =
@@ -136,9 +136,10 @@ Outcome classify(Case& c, int step, U32 outsideState) {
 void expectReceiver(const Outcome& out, std::size_t slot, const ReceiverReference& twin,
                     std::size_t pixel) {
     const auto value = [&](std::size_t plane) { return out.receivers[plane * out.slots + slot]; };
-    // Texels and metres of some tens in float
-    EXPECT_NEAR(value(RECEIVER_A), twin.a, 2e-5 * (50 + std::abs(twin.a))) << pixel;
-    EXPECT_NEAR(value(RECEIVER_B), twin.b, 2e-5 * (50 + std::abs(twin.b))) << pixel;
+    // Texels and metres of some tens in float; close to the light's plane z loses digits as w grows
+    const double digits = 2e-5 * std::max(1.0, 0.1 * twin.w);
+    EXPECT_NEAR(value(RECEIVER_A), twin.a, digits * (50 + std::abs(twin.a))) << pixel;
+    EXPECT_NEAR(value(RECEIVER_B), twin.b, digits * (50 + std::abs(twin.b))) << pixel;
     EXPECT_NEAR(value(RECEIVER_W), twin.w, 4e-6 * (1 + twin.w * twin.w)) << pixel;
     EXPECT_NEAR(value(RECEIVER_GRADIENT_X), twin.slopeX, 1e-7) << pixel;
     EXPECT_NEAR(value(RECEIVER_GRADIENT_Y), twin.slopeY, 1e-7) << pixel;
