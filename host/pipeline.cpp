@@ -234,6 +234,9 @@ void Pipeline::makePasses() {
     requireUsage(!aovs_.depthMaps || technique_->hasDepthMaps(),
                  "--aov depth-maps: technique {} makes none; vwss, mvr, mvss, pcss and essm do",
                  options_.technique);
+    const auto pose = scene::poseAt(scene_, clips_, 0);
+    for (const auto& light : scene::lightsAt(scene_, pose, bounds_, sampleChoice(options_, 0)))
+        technique_->check(light);
     if (geometry_->mesh().hasBlend)
         warnOnce(
             "blended and transmissive surfaces are seen as opaque where their alpha is above 0.5, "

@@ -63,14 +63,13 @@ shared::float4 row(const glm::dvec3& axis, double offset) {
             static_cast<float>(offset)};
 }
 
-/// A step through N ranks near to the golden ratio and coprime to N.
+}  // namespace
+
 int shuffleStride(int views) {
     int stride = std::max(static_cast<int>(views * 0.6180339887498949), 1);
     while (std::gcd(stride, views) != 1) ++stride;
     return stride;
 }
-
-}  // namespace
 
 LightView fitLightView(const scene::AreaLight& light, const scene::Bounds& casters,
                        const glm::dvec3& centre, int resolution, double density) {

@@ -29,4 +29,8 @@ struct LightView {
 LightView fitLightView(const scene::AreaLight& light, const scene::Bounds& casters,
                        const glm::dvec3& centre, int resolution, double density);
 
+/// Step of the opacity shuffle of kernels/lib/opacity.h through N ranks: near to the golden ratio
+/// and coprime to N.
+int shuffleStride(int views);
+
 }  // namespace penumbra::visibility

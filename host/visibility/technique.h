@@ -58,6 +58,8 @@ class Technique {
                          const glm::dvec3& /*centre*/) {}
     /// False if there are no depth maps to keep for --aov depth-maps.
     virtual bool hasDepthMaps() const { return true; }
+    /// Throws Error (usage) if it cannot use the light's samples, naming what it can.
+    virtual void check(const scene::AreaLight&) const {}
     /// Bytes that the first frame will allocate at the least; the rest is held by now, or grows
     /// with lists whose length only the device knows.
     virtual std::uint64_t frameBytes(const Mesh&) const { return 0; }

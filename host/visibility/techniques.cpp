@@ -6,6 +6,7 @@
 #include "host/visibility/mvss.h"
 #include "host/visibility/none.h"
 #include "host/visibility/pcss.h"
+#include "host/visibility/raster4d.h"
 #include "host/visibility/raytrace.h"
 #include "host/visibility/technique.h"
 #include "host/visibility/vwss.h"
@@ -51,6 +52,14 @@ const std::vector<TechniqueEntry>& techniques() {
          "shadows, a "
          "grid of the pyramid's texels in wide penumbrae",
          describeSettings<EssmSettings>, Essm::plannedBytes, make<Essm>},
+        {"raster4d",
+         "exact: triangles and receivers meet in the light's grid and give a bit per light sample, "
+         "a "
+         "row of them at a time",
+         "[4DR]",
+         "none but the light samples' number, at most 64 x 64; cost grows with the light's size; "
+         "partial opacity blocks a share of the samples",
+         describeSettings<Raster4dSettings>, Raster4d::plannedBytes, make<Raster4d>},
         {"raytrace",
          "the reference: one ray per light sample and pixel, opacity and colour along it", "",
          "none but the light samples' number", describeSettings<RaytraceSettings>,

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Exact visibility by 4D rasterisation [4DR]: for each pixel a bit per light sample, identical to
+// ray tracing to the same samples.
+#pragma once
+#include "host/visibility/light_grid.h"
+#include "host/visibility/technique.h"
+#include "kernels/shared/multi_view.h"
+#include "runtime/sort.h"
+
+namespace penumbra::visibility {
+
+struct Raster4dSettings {
+    template <typename Row>
+    void rows(Row&) {}
+};
+
+/// Posed casters in the grid of one light, sorted and bounded; kernels/shared/raster4d.h.
+class LightTriangles {
+  public:
+    LightTriangles(const runtime::Program& frame, const runtime::Program& raster4d);
+    /// Enqueues making all of it for the mesh; sets the counts in `params`.
+    void run(const Mesh& mesh, shared::Raster4dParams& params);
+    static std::uint64_t bytesFor(const Mesh& mesh);
+
+    const Buffer<float>& bounds(int level) const { return bounds_[level]; }
+    const Buffer<float>& corners() const { return corners_; }
+    const Buffer<shared::float4>& triangles() const { return triangles_; }
+    const Buffer<std::uint32_t>& order() const { return order_; }
+
+  private:
+    using U32 = std::uint32_t;
+    void plan(const Mesh& mesh, shared::Raster4dParams& params);
+    runtime::Device* device_;
+    runtime::Sort sort_;
+    runtime::Kernel<shared::Raster4dParams, U32, Buffer<float>, Buffer<shared::float4>> vertices_;
+    runtime::Kernel<shared::Raster4dParams, Buffer<shared::float4>, Buffer<U32>, Buffer<U32>,
+                    Buffer<shared::Draw>, Buffer<U32>, Buffer<U32>>
+        keys_;
+    runtime::Kernel<shared::Raster4dParams, Buffer<shared::float4>, Buffer<U32>, Buffer<U32>,
+                    Buffer<shared::Draw>, Buffer<U32>, Buffer<U32>, Buffer<float>, Buffer<float>,
+                    Buffer<shared::float4>, Buffer<U32>>
+        trianglesKernel_;
+    runtime::Kernel<shared::Raster4dParams, int, Buffer<float>, Buffer<float>> nodes_;
+    Buffer<shared::float4> grid_, triangles_;
+    Buffer<U32> keyBuffer_, sorted_, order_;
+    Buffer<float> bounds_[R4_LEVELS], corners_;
+};
+
+/// Pixels that are tested, in the grid of one light, sorted.
+class LightReceivers {
+  public:
+    LightReceivers(const runtime::Program& frame, const runtime::Program& raster4d, int width,
+                   int height);
+    void run(const Inputs& inputs, shared::Raster4dParams& params, Visibility& visibility);
+    static std::uint64_t bytesFor(int width, int height);
+
+    const shared::ReceiverParams& image() const { return image_; }
+    const Buffer<float>& planes() const { return planes_; }
+    const Buffer<std::uint32_t>& count() const { return count_; }
+
+  private:
+    using U32 = std::uint32_t;
+    runtime::Device* device_;
+    shared::ReceiverParams image_{};
+    runtime::Sort sort_;
+    runtime::Kernel<shared::Raster4dParams, shared::ReceiverParams, Buffer<float>, Buffer<U32>,
+                    Buffer<float>, Buffer<U32>, Buffer<U32>>
+        receivers_;
+    runtime::Kernel<shared::Raster4dParams, shared::ReceiverParams, Buffer<float>, Buffer<U32>,
+                    Buffer<U32>, Buffer<float>, Buffer<U32>>
+        gather_;
+    Buffer<U32> keys_, pixels_, count_;
+    Buffer<float> planes_;
+};
+
+class Raster4d : public Technique {
+  public:
+    explicit Raster4d(const TechniqueContext& context);
+    static std::uint64_t plannedBytes(const TechniqueContext& context);
+    bool hasDepthMaps() const override { return false; }
+    std::uint64_t frameBytes(const Mesh& mesh) const override {
+        return LightTriangles::bytesFor(mesh);
+    }
+    void check(const scene::AreaLight& light) const override { fitLightGrid(light); }
+    void run(const Inputs& inputs, Visibility& visibility) override;
+    std::vector<SettingRow> settings() const override { return settingsInForce(settings_); }
+
+  private:
+    /// The cells of one light on the device; kept while its samples stay the same.
+    struct Cells {
+        scene::AreaLight light;
+        LightGrid grid;
+        Buffer<float> x, y;
+        Buffer<int> sample;
+        Buffer<std::uint32_t> empty;
+    };
+    void placeCells(const scene::AreaLight& light);
+
+    Raster4dSettings settings_;
+    runtime::Program frame_, program_;
+    LightReceivers receivers_;
+    LightTriangles triangles_;
+    using U32 = std::uint32_t;
+    runtime::Kernel<shared::Raster4dParams, shared::ReceiverParams, Buffer<float>, Buffer<float>,
+                    Buffer<U32>, Buffer<float>, Buffer<float>, Buffer<float>, Buffer<float>,
+                    Buffer<shared::float4>, Buffer<U32>, Buffer<float>, Buffer<float>, Buffer<int>,
+                    Buffer<U32>, Buffer<U32>, Buffer<U32>, Buffer<shared::Draw>,
+                    Buffer<shared::Material>, Buffer<float>, Buffer<U32>, Buffer<U32>,
+                    Buffer<float>, Buffer<U32>>
+        bins_;
+    Cells cells_;
+    Buffer<U32> masks_;
+};
+
+}  // namespace penumbra::visibility

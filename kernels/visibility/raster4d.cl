@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// Exact occlusion masks: receivers and triangles in the light's grid, sorted, bounded, paired, rasterised.
+//   G-buffer --receivers, sort, gather--> receivers --groups--+--> masks --count--> visibility
+//   mesh --vertices, keys, sort, triangles--> bounds ---------+
+// Source: [4DR] 3: generalised projection, full coverage (3.2, appendix), rows of the mask at once (3.3).
+// Differs: no grid on a plane. Both sides are sorted along a curve through (slope x, slope y, z) and bounded in
+// nodes of 16; a node of receivers meets a node of triangles by five comparisons. Pairs are never stored: they
+// are found and rasterised as the work-item goes, in lists that it empties when they are full.
+#include "lib/receiver.h"
+#include "visibility/raster4d_pair.h"
+#include "shared/raster4d.h"
+
+/// Row of the sum of two affine maps, to more digits than a float has (products and sums with their errors).
+inline float affineRow(float4 high, float4 low, float3 p) {
+    const float products[3] = {high.x * p.x, high.y * p.y, high.z * p.z};
+    float rest = fma(high.x, p.x, -products[0]) + fma(high.y, p.y, -products[1]) + fma(high.z, p.z, -products[2]);
+    rest += fma(low.x, p.x, fma(low.y, p.y, fma(low.z, p.z, low.w)));
+    float sum = high.w;
+    for (int k = 0; k < 3; ++k) {
+        const float next = sum + products[k], other = next - sum;
+        rest += (sum - (next - other)) + (products[k] - other);
+        sum = next;
+    }
+    return sum + rest;
+}
+
+inline float3 toGrid(const Raster4dParams* p, float3 world) {
+    return (float3)(affineRow(p->gridHigh.row[0], p->gridLow.row[0], world),
+                    affineRow(p->gridHigh.row[1], p->gridLow.row[1], world),
+                    affineRow(p->gridHigh.row[2], p->gridLow.row[2], world));
+}
+
+/// [0, 1): most of it for [-1, 1], the rest for what lies beyond.
+inline float keyAxis(float v) {
+    const float a = fabs(v);
+    const float spread = a <= 1.0f ? 0.45f * a : 0.5f - 0.05f / a;
+    return clamp(0.5f + copysign(spread, v), 0.0f, 0.999999f);
+}
+
+inline uint spreadKey(uint v) {
+    v = (v | v << 8) & 0x0000f00fu;
+    v = (v | v << 4) & 0x000c30c3u;
+    return (v | v << 2) & 0x00249249u;
+}
+
+/// Place along the curve that sorting follows.
+inline uint gridKey(const Raster4dParams* p, float3 q) {
+    const float cells = (float)(1 << R4_KEY_BITS), z = max(q.z, 1e-6f);
+    const uint x = (uint)(keyAxis((q.x / z - p->keyCentre.x) * p->keyScale.x) * cells);
+    const uint y = (uint)(keyAxis((q.y / z - p->keyCentre.y) * p->keyScale.y) * cells);
+    const uint d = (uint)(keyAxis((q.z - p->keyCentre.z) * p->keyScale.z) * cells);
+    return spreadKey(x) | spreadKey(y) << 1 | spreadKey(d) << 2;
+}
+
+/// One work-item per pixel: its state, and a key for those that are tested.
+kernel void raster4d_receivers(const Raster4dParams params, const ReceiverParams image,
+                               global const float* restrict planes, global uint* restrict state,
+                               global float* restrict visibility, global uint* restrict keys,
+                               global uint* restrict pixels) {
+    const int pixel = get_global_id(0);
+    if (pixel >= image.planeStride) return;
+    const Receiver r =
+        receiverAt(&image, &params.lightFromWorld, params.halfWidth, params.halfHeight, planes, pixel);
+    state[pixel] = r.state;
+    visibility[pixel] = 1.0f;
+    pixels[pixel] = (uint)pixel;
+    keys[pixel] = r.state == STATE_TESTED ? gridKey(&params, toGrid(&params, r.origin)) : R4_KEY_NONE;
+}
+
+/// One work-item per sorted pixel: receivers, and how many there are.
+kernel void raster4d_gather(const Raster4dParams params, const ReceiverParams image,
+                            global const float* restrict planes, global const uint* restrict keys,
+                            global const uint* restrict pixels, global float* restrict receivers,
+                            global uint* restrict count) {
+    const int i = get_global_id(0), stride = params.receiverStride;
+    if (i >= image.planeStride) return;
+    const int tested = keys[i] != R4_KEY_NONE;
+    if (i == 0 && !tested) *count = 0;
+    if (!tested) return;
+    if (i + 1 == image.planeStride || keys[i + 1] == R4_KEY_NONE) *count = (uint)i + 1u;
+    const int pixel = (int)pixels[i];
+    const Receiver r =
+        receiverAt(&image, &params.lightFromWorld, params.halfWidth, params.halfHeight, planes, pixel);
+    const float3 q = toGrid(&params, r.origin);
+    receivers[(R4_Q + 0) * stride + i] = q.x;
+    receivers[(R4_Q + 1) * stride + i] = q.y;
+    receivers[(R4_Q + 2) * stride + i] = q.z;
+    receivers[(R4_BOUND + 0) * stride + i] = q.x / q.z;
+    receivers[(R4_BOUND + 1) * stride + i] = -((q.x - (float)(params.columns - 1)) / q.z);
+    receivers[(R4_BOUND + 2) * stride + i] = q.y / q.z;
+    receivers[(R4_BOUND + 3) * stride + i] = -((q.y - (float)(params.rows - 1)) / q.z);
+    receivers[(R4_BOUND + 4) * stride + i] = -q.z;
+    receivers[R4_PIXEL * stride + i] = as_float((uint)pixel);
+}
+
+/// One work-item per vertex: [vertex, 4] in the light's grid.
+kernel void raster4d_vertices(const Raster4dParams params, const uint vertices,
+                              global const float* restrict positions, global float4* restrict grid) {
+    const uint i = get_global_id(0);
+    if (i >= vertices) return;
+    grid[i] = (float4)(toGrid(&params, load3(positions, i)), 0.0f);
+}
+
+/// One work-item per triangle: what casts nothing and what is not finite comes last.
+kernel void raster4d_keys(const Raster4dParams params, global const float4* restrict grid,
+                          global const uint* restrict indices, global const uint* restrict triangleDraw,
+                          global const Draw* restrict draws, global uint* restrict keys,
+                          global uint* restrict triangles) {
+    const uint i = get_global_id(0);
+    if (i >= (uint)params.triangleCount) return;
+    triangles[i] = i;
+    keys[i] = R4_KEY_NONE;
+    if (!(draws[triangleDraw[i]].flags & DRAW_CASTS)) return;
+    const float3 centre =
+        (grid[indices[3 * i]].xyz + grid[indices[3 * i + 1]].xyz + grid[indices[3 * i + 2]].xyz) * (1.0f / 3.0f);
+    const float reach = fabs(centre.x) + fabs(centre.y) + fabs(centre.z);
+    keys[i] = reach < 1e18f ? gridKey(&params, centre) : R4_KEY_NONE - 1u;
+}
+
+/// Widens a triangle's bounds by a corner; a corner in the light's plane reaches to infinity.
+inline void boundCorner(const Raster4dParams* p, float3 v, float* bounds) {
+    const float numerators[4] = {v.x, -(v.x - (float)(p->columns - 1)), v.y, -(v.y - (float)(p->rows - 1))};
+    for (int k = 0; k < 4; ++k) {
+        const float slope = v.z > 0.0f ? numerators[k] / v.z : numerators[k] > 0.0f ? INFINITY : -INFINITY;
+        bounds[k] = max(bounds[k], slope);
+    }
+    bounds[4] = max(bounds[4], -max(v.z, 0.0f));
+}
+
+/// Bounds of the part of a triangle in front of the light; the samples of a cell may lie half a cell off.
+inline void boundTriangle(const Raster4dParams* p, const float3* v, float* bounds) {
+    for (int k = 0; k < R4_BOUNDS; ++k) bounds[k] = -INFINITY;
+    for (int i = 0; i < 3; ++i) {
+        const float3 a = v[i], b = v[i == 2 ? 0 : i + 1];
+        if (a.z > 0.0f) boundCorner(p, a, bounds);
+        if ((a.z > 0.0f) == (b.z > 0.0f)) continue;
+        const float3 cut = a + (b - a) * (a.z / (a.z - b.z));
+        boundCorner(p, (float3)(cut.xy, 0.0f), bounds);
+    }
+}
+
+inline int precedes(float3 a, float3 b) {
+    if (a.x != b.x) return a.x < b.x;
+    return a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+inline void storeTriangle(const float3* v, global float4* restrict t) {
+    float3 base[3], edge[3];
+    for (int i = 0; i < 3; ++i) {
+        const float3 a = v[i], b = v[i == 2 ? 0 : i + 1];
+        base[i] = precedes(a, b) ? a : b;
+        edge[i] = b - a;
+    }
+    const float3 n = cross3(edge[0], v[2] - v[0]);
+    t[R4_BASE + 0] = (float4)(base[0].x, base[1].x, base[2].x, v[0].x);
+    t[R4_BASE + 1] = (float4)(base[0].y, base[1].y, base[2].y, v[0].y);
+    t[R4_BASE + 2] = (float4)(base[0].z, base[1].z, base[2].z, v[0].z);
+    t[R4_EDGE + 0] = (float4)(edge[0].x, edge[1].x, edge[2].x, n.x);
+    t[R4_EDGE + 1] = (float4)(edge[0].y, edge[1].y, edge[2].y, n.y);
+    t[R4_EDGE + 2] = (float4)(edge[0].z, edge[1].z, edge[2].z, n.z);
+    t[R4_FARTHEST] = (float4)(0.0f, 0.0f, -fma(n.x, v[0].x, fma(n.y, v[0].y, n.z * v[0].z)),
+                              max(v[0].z, max(v[1].z, v[2].z)));
+}
+
+/// One work-item per slot of the lowest nodes: its triangle and its bounds; -infinity where there is none.
+kernel void raster4d_triangles(const Raster4dParams params, global const float4* restrict grid,
+                               global const uint* restrict indices, global const uint* restrict triangleDraw,
+                               global const Draw* restrict draws, global const uint* restrict keys,
+                               global const uint* restrict sorted, global float* restrict bounds,
+                               global float* restrict corners, global float4* restrict triangles, global uint* restrict order) {
+    const int slot = get_global_id(0);
+    if (slot >= params.nodeCount[0] * R4_WIDTH) return;
+    float box[R4_BOUNDS];
+    for (int k = 0; k < R4_BOUNDS; ++k) box[k] = -INFINITY;
+    const uint triangle = slot < params.casterCount ? sorted[slot] : 0u;
+    if (slot < params.casterCount && keys[slot] < R4_KEY_NONE - 1u) {
+        float3 v[3];
+        for (int i = 0; i < 3; ++i) {
+            v[i] = grid[indices[3 * triangle + i]].xyz;
+            global float* out = corners + (slot / R4_WIDTH * R4_CORNERS + 3 * i) * R4_WIDTH + slot % R4_WIDTH;
+            out[0] = v[i].x;
+            out[R4_WIDTH] = v[i].y;
+            out[2 * R4_WIDTH] = v[i].z;
+        }
+        boundTriangle(&params, v, box);
+        storeTriangle(v, triangles + (size_t)slot * R4_TRIANGLE);
+        const uint flags = draws[triangleDraw[triangle]].flags;
+        order[slot] = triangle | (flags & (DRAW_MASK | DRAW_BLEND) ? R4_SURFACE : 0u);
+    }
+    for (int k = 0; k < R4_BOUNDS; ++k)
+        bounds[(slot / R4_WIDTH * R4_BOUNDS + k) * R4_WIDTH + slot % R4_WIDTH] = box[k];
+}
+
+/// One work-item per slot of a level above: bounds of the node below.
+kernel void raster4d_nodes(const Raster4dParams params, const int level, global const float* restrict below,
+                           global float* restrict bounds) {
+    const int slot = get_global_id(0);
+    if (slot >= params.nodeCount[level] * R4_WIDTH) return;
+    for (int k = 0; k < R4_BOUNDS; ++k) {
+        float most = -INFINITY;
+        for (int i = 0; i < R4_WIDTH && slot < params.nodeCount[level - 1]; ++i)
+            most = max(most, below[(slot * R4_BOUNDS + k) * R4_WIDTH + i]);
+        bounds[(slot / R4_WIDTH * R4_BOUNDS + k) * R4_WIDTH + slot % R4_WIDTH] = most;
+    }
+}
+
+#include "visibility/raster4d_bins.inl"
