@@ -39,8 +39,9 @@ typedef LANES_JOIN(uint, LANES) VU;
 #define V_STORE(v, p, i) LANES_JOIN(vstore, LANES)(v, 0, (p) + (i))
 #define V_MASK(c) (c)
 #define V_SELECT(no, yes, mask) select((no), (yes), (mask))
-#define V_ANY(mask) any(mask)
-#define V_ALL(mask) all(mask)
+// any() and all() branch from lane to lane in some compilers
+#define V_ANY(mask) (lanesOr(mask) != 0)
+#define V_ALL(mask) (lanesOr(~(mask)) == 0)
 #define V_AS_UINT LANES_JOIN(as_uint, LANES)
 #define V_AS_INT LANES_JOIN(as_int, LANES)
 #define V_AS_FLOAT LANES_JOIN(as_float, LANES)
@@ -49,10 +50,21 @@ typedef LANES_JOIN(uint, LANES) VU;
 #define V_TO_FLOAT LANES_JOIN(convert_float, LANES)
 #define V_LOAD_HALF(p, i) LANES_JOIN(vload_half, LANES)(0, (p) + (i))
 #if LANES == 8
+inline ulong lanesOr(VI mask) {
+    const ulong4 w = as_ulong4(mask);
+    const ulong2 half_ = w.lo | w.hi;
+    return half_.x | half_.y;
+}
 #define V_INDEX ((VI)(0, 1, 2, 3, 4, 5, 6, 7))
 #define V_GATHER_(T, p, i) \
     (T)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], (p)[(i).s7])
 #else
+inline ulong lanesOr(VI mask) {
+    const ulong8 w = as_ulong8(mask);
+    const ulong4 half_ = w.lo | w.hi;
+    const ulong2 quarter = half_.lo | half_.hi;
+    return quarter.x | quarter.y;
+}
 #define V_INDEX ((VI)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 #define V_GATHER_(T, p, i)                                                                          \
     (T)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6],  \

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which light samples a triangle hides from a receiver: a bit each, a row at a time.
+// Which light samples triangles hide from a receiver: a bit each, a row at a time; LANES triangles at once for
+// the edges, LANES rows at once for the bits.
 // Source: [4DR] 3.3 and algorithm 3. Seen from the receiver q, the plane through q and an edge cuts the
 // light's plane in a line, E(j, i) = A j + B i + C, and sample (i, j) is hidden if it lies on the inner side
 // of all three. A row's hidden columns are therefore an interval whose ends are linear in the row:
@@ -18,112 +19,149 @@
 #define MASK_WORDS (2 * MASK_STRIDE)
 #define MASK_BEYOND 1e30f
 
-/// The lines that a triangle's edges, and in lane 3 its plane, draw on the light; inside is >= 0.
+/// Corners of LANES triangles: x, y, z of corner 0, then of 1 and 2.
 typedef struct {
-    float4 a, b, c;
+    VF at[R4_CORNERS];
+} MaskTriangles;
+
+/// The lines that edges (0,1), (1,2), (2,0) and, last, the triangle's own plane draw on the light; inside is >= 0.
+typedef struct {
+    VF a[4], b[4], c[4];
+    VI valid;   ///< 0: the receiver lies in the triangle's plane, and nothing is hidden
+    VI before;  ///< all corners are nearer to the light than the receiver
 } MaskLines;
 
-/// 0 if q lies in the triangle's plane: nothing is hidden then.
-inline int maskLines(float3 q, global const float4* restrict t, MaskLines* lines) {
-    const float4 baseX = t[R4_BASE], baseY = t[R4_BASE + 1], baseZ = t[R4_BASE + 2];
-    const float4 edgeX = t[R4_EDGE], edgeY = t[R4_EDGE + 1], edgeZ = t[R4_EDGE + 2];
-    const float4 x = baseX - q.x, y = baseY - q.y, z = baseZ - q.z;
-    const float above = fma(x.w, edgeX.w, fma(y.w, edgeY.w, z.w * edgeZ.w));
-    if (!(fabs(above) > 0.0f)) return 0;
-    // No fma here: the products must cancel alike in both triangles of an edge
-    const float side = above > 0.0f ? 1.0f : -1.0f;
-    lines->a = (y * edgeZ - z * edgeY) * side;
-    lines->b = (z * edgeX - x * edgeZ) * side;
-    const float4 n = (x * edgeY - y * edgeX) * side;
-    lines->c = -fma(lines->a, baseX, fma(lines->b, baseY, n * baseZ));
-    // Hidden samples lie beyond the plane, where the receiver does not
-    lines->a.w = edgeX.w * side;
-    lines->b.w = edgeY.w * side;
-    lines->c.w = t[R4_FARTHEST].z * side;
-    return 1;
+/// Lanes where corner v precedes corner w in space.
+inline VI cornerPrecedes(const VF* v, const VF* w) {
+    const VI y = V_MASK(v[1] < w[1]) | (V_MASK(v[1] == w[1]) & V_MASK(v[2] < w[2]));
+    return V_MASK(v[0] < w[0]) | (V_MASK(v[0] == w[0]) & y);
 }
 
-/// Ends of rows as linear functions: column = slope x row + start, of each lane.
+inline MaskLines maskLines(float3 q, const MaskTriangles* t) {
+    MaskLines lines;
+    const VF* v0 = t->at;
+    // The triangle's plane: n.(v0 - q) tells on which side the receiver lies
+    VF e[2][3];
+    for (int i = 0; i < 3; ++i) {
+        e[0][i] = t->at[3 + i] - v0[i];
+        e[1][i] = t->at[6 + i] - v0[i];
+    }
+    const VF nx = e[0][1] * e[1][2] - e[0][2] * e[1][1], ny = e[0][2] * e[1][0] - e[0][0] * e[1][2];
+    const VF nz = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+    const VF above = fma(v0[0] - q.x, nx, fma(v0[1] - q.y, ny, (v0[2] - q.z) * nz));
+    const VF side = V_SELECT((VF)-1.0f, (VF)1.0f, V_MASK(above > 0.0f));
+    lines.valid = V_MASK(fabs(above) > 0.0f);
+    lines.before = V_MASK(max(v0[2], max(t->at[5], t->at[8])) < q.z);
+#pragma unroll
+    for (int k = 0; k < 3; ++k) {
+        const VF* v = t->at + 3 * k;
+        const VF* w = t->at + (k == 2 ? 0 : 3 * k + 3);
+        const VI swap = cornerPrecedes(w, v);
+        const VF baseX = V_SELECT(v[0], w[0], swap), baseY = V_SELECT(v[1], w[1], swap);
+        const VF baseZ = V_SELECT(v[2], w[2], swap);
+        const VF x = baseX - q.x, y = baseY - q.y, z = baseZ - q.z;
+        const VF ex = w[0] - v[0], ey = w[1] - v[1], ez = w[2] - v[2];
+        // No fma here: the products must cancel alike in both triangles of an edge
+        lines.a[k] = (y * ez - z * ey) * side;
+        lines.b[k] = (z * ex - x * ez) * side;
+        const VF n = (x * ey - y * ex) * side;
+        lines.c[k] = -fma(lines.a[k], baseX, fma(lines.b[k], baseY, n * baseZ));
+    }
+    // Hidden samples lie beyond the plane, where the receiver does not
+    lines.a[3] = nx * side;
+    lines.b[3] = ny * side;
+    lines.c[3] = -fma(nx, v0[0], fma(ny, v0[1], nz * v0[2])) * side;
+    return lines;
+}
+
+/// Ends of rows as linear functions, column = slope x row + start, of the four lines. Where a line does not
+/// bound that side, its end lies beyond all columns.
 typedef struct {
-    float4 slope, start;
-    int4 left;  ///< lanes whose inner side is to the right
+    float a[4][LANES], b[4][LANES], c[4][LANES];
+    float leftSlope[4][LANES], leftStart[4][LANES], rightSlope[4][LANES], rightStart[4][LANES];
 } MaskEnds;
 
-inline MaskEnds maskEnds(const MaskLines* lines) {
-    MaskEnds e;
-    // A line along a row: its end is far to the left or to the right, by the side that the row lies on
-    const float4 least = fma(fabs(lines->b), (float4)64.0f, fabs(lines->c)) * 1e-18f + 1e-37f;
-    e.left = lines->a >= 0.0f;
-    const float4 a = select(min(lines->a, -least), max(lines->a, least), e.left);
-    e.slope = -lines->b / a;
-    e.start = -lines->c / a;
-    return e;
+inline void maskEnds(const MaskLines* lines, MaskEnds* ends) {
+#pragma unroll
+    for (int k = 0; k < 4; ++k) {
+        const VF a = lines->a[k], b = lines->b[k], c = lines->c[k];
+        // A line along a row: its end is far to the left or to the right, by the side that the row lies on
+        const VF least = fma(fabs(b), (VF)64.0f, fabs(c)) * 1e-18f + 1e-37f;
+        const VI left = V_MASK(a >= 0.0f);
+        const VF safe = V_SELECT(min(a, -least), max(a, least), left);
+        const VF slope = -b / safe, start = -c / safe;
+        V_STORE(V_SELECT((VF)0.0f, slope, left), ends->leftSlope[k], 0);
+        V_STORE(V_SELECT((VF)-MASK_BEYOND, start, left), ends->leftStart[k], 0);
+        V_STORE(V_SELECT(slope, (VF)0.0f, left), ends->rightSlope[k], 0);
+        V_STORE(V_SELECT(start, (VF)MASK_BEYOND, left), ends->rightStart[k], 0);
+        V_STORE(a, ends->a[k], 0);
+        V_STORE(b, ends->b[k], 0);
+        V_STORE(c, ends->c[k], 0);
+    }
 }
 
-/// Bits of columns in [left, right] of word `word`; left >= 0.
-inline VU maskBits(VF left, VF right, int word) {
-    const float first = (float)(32 * word);
-    const VF from = max(left - first, (VF)0.0f), to = min(right - first, (VF)31.0f);
-    const VI inside = V_MASK(from <= to);
-    const VI start = V_SELECT((VI)0, V_TO_INT(ceil(from)), inside);
-    const VI stop = V_SELECT((VI)0, V_TO_INT(floor(to)), inside);
+/// v >= 0 rounded up; ceil() is slow where a device has no instruction for it.
+inline VI maskCeil(VF v) {
+    const VI whole = V_TO_INT(v);
+    return whole - V_MASK(V_TO_FLOAT(whole) < v);
+}
+
+/// Bits of columns in [left, right] of a word; left >= 0, right < 32.
+inline VU maskBits(VF left, VF right) {
+    const VI inside = V_MASK(left <= right);
+    const VI start = V_SELECT((VI)0, maskCeil(left), inside), stop = V_SELECT((VI)0, V_TO_INT(right), inside);
     return ((VU)0xffffffffu << V_AS_UINT(start & 31)) & ((VU)0xffffffffu >> V_AS_UINT((31 - stop) & 31)) &
            V_AS_UINT(inside);
 }
 
-/// Rows first to last, LANES at a time. planes: 3, or 4 with the triangle's own.
-inline void maskRows(const Raster4dParams* p, const MaskEnds* e, int planes, int first, int last, uint* mask) {
-    const float4 zero = (float4)0.0f, far = (float4)MASK_BEYOND;
-    const float4 leftSlope = select(zero, e->slope, e->left), leftStart = select(-far, e->start, e->left);
-    const float4 rightSlope = select(e->slope, zero, e->left), rightStart = select(e->start, far, e->left);
-    const VF columns = (VF)(float)(p->columns - 1), end = (VF)(float)last;
+/// Rows first to last of one lane's triangle. planes: 3, or 4 with the triangle's own.
+inline void maskRows(const Raster4dParams* p, const MaskEnds* e, int lane, int planes, int first, int last,
+                     uint* mask) {
     for (int row = first; row <= last; row += LANES) {
         const VF i = V_TO_FLOAT(V_INDEX + row);
-        VF left = max(max(fma((VF)leftSlope.x, i, (VF)leftStart.x), fma((VF)leftSlope.y, i, (VF)leftStart.y)),
-                      max(fma((VF)leftSlope.z, i, (VF)leftStart.z), (VF)0.0f));
-        VF right = min(min(fma((VF)rightSlope.x, i, (VF)rightStart.x), fma((VF)rightSlope.y, i, (VF)rightStart.y)),
-                       min(fma((VF)rightSlope.z, i, (VF)rightStart.z), columns));
+        VF left = (VF)0.0f, right = (VF)(float)(p->columns - 1);
+#pragma unroll
+        for (int k = 0; k < 3; ++k) {
+            left = max(left, fma((VF)e->leftSlope[k][lane], i, (VF)e->leftStart[k][lane]));
+            right = min(right, fma((VF)e->rightSlope[k][lane], i, (VF)e->rightStart[k][lane]));
+        }
         if (planes > 3) {
-            left = max(left, fma((VF)leftSlope.w, i, (VF)leftStart.w));
-            right = min(right, fma((VF)rightSlope.w, i, (VF)rightStart.w));
+            left = max(left, fma((VF)e->leftSlope[3][lane], i, (VF)e->leftStart[3][lane]));
+            right = min(right, fma((VF)e->rightSlope[3][lane], i, (VF)e->rightStart[3][lane]));
         }
-        right = V_SELECT((VF)-1.0f, right, V_MASK(i <= end));
-        for (int word = 0; word < p->words; ++word) {
-            uint* rows = mask + word * MASK_STRIDE + row;
-            V_STORE(V_LOAD(rows, 0) | maskBits(left, right, word), rows, 0);
-        }
+        right = V_SELECT((VF)-1.0f, right, V_MASK(i <= (float)last));
+        V_STORE(V_LOAD(mask + row, 0) | maskBits(left, min(right, (VF)31.0f)), mask + row, 0);
+        if (p->words == 1) continue;
+        uint* rows = mask + MASK_STRIDE + row;
+        V_STORE(V_LOAD(rows, 0) | maskBits(max(left - 32.0f, (VF)0.0f), right - 32.0f), rows, 0);
     }
 }
 
-/// True positions of samples within their cells, and which cells have one.
-typedef struct {
-    global const float* x;  ///< [row * columns + column]
-    global const float* y;
-    global const int* sample;  ///< index of the light sample, -1: none
-} MaskCells;
+/// One row of each lane's triangle, whose corners must all lie before the receiver: most triangles of a fine
+/// mesh reach no more. bits [word][lane]
+inline void maskOneRow(const Raster4dParams* p, const MaskEnds* e, VF row, uint bits[2][LANES]) {
+    VF left = (VF)0.0f, right = (VF)(float)(p->columns - 1);
+#pragma unroll
+    for (int k = 0; k < 3; ++k) {
+        left = max(left, fma(V_LOAD(e->leftSlope[k], 0), row, V_LOAD(e->leftStart[k], 0)));
+        right = min(right, fma(V_LOAD(e->rightSlope[k], 0), row, V_LOAD(e->rightStart[k], 0)));
+    }
+    V_STORE(maskBits(left, min(right, (VF)31.0f)), bits[0], 0);
+    if (p->words > 1) V_STORE(maskBits(max(left - 32.0f, (VF)0.0f), right - 32.0f), bits[1], 0);
+}
 
-/// One row as an interval that holds every column which may be hidden, whatever the corners' distances;
-/// `slack`: how far a sample lies from the centre of its cell.
-inline void maskRow(const MaskEnds* e, int planes, int row, float slack, float columns,
-                    float* left, float* right) {
-    *left = 0.0f;
-    *right = columns - 1.0f;
-    const float slopes[4] = {e->slope.x, e->slope.y, e->slope.z, e->slope.w};
-    const float starts[4] = {e->start.x, e->start.y, e->start.z, e->start.w};
-    const int lefts[4] = {e->left.x, e->left.y, e->left.z, e->left.w};
+/// Columns of a row that a lane's triangle may hide where samples lie up to `slack` off their cells' centres.
+inline float2 maskColumns(const Raster4dParams* p, const MaskEnds* e, int lane, int planes, float row, float slack) {
+    float left = 0.0f, right = (float)(p->columns - 1);
     for (int k = 0; k < planes; ++k) {
-        const float end = fma(slopes[k], (float)row, starts[k]);
-        const float spread = slack > 0.0f ? slack * (1.0f + fabs(slopes[k])) + 1e-5f * fabs(end) : 0.0f;
-        if (lefts[k])
-            *left = max(*left, end - spread);
-        else
-            *right = min(*right, end + spread);
+        const float from = fma(e->leftSlope[k][lane], row, e->leftStart[k][lane]);
+        const float to = fma(e->rightSlope[k][lane], row, e->rightStart[k][lane]);
+        const float spread = slack * (1.0f + fabs(e->leftSlope[k][lane] + e->rightSlope[k][lane]));
+        const float rounding = slack > 0.0f ? 1e-5f : 0.0f;
+        left = max(left, from - spread - rounding * fabs(from));
+        right = min(right, to + spread + rounding * fabs(to));
     }
-}
-
-/// E of each lane at a sample.
-inline float4 maskAt(const MaskLines* lines, float x, float y) {
-    return fma(lines->a, (float4)x, fma(lines->b, (float4)y, lines->c));
+    return (float2)(left, right);
 }
 
 #endif

@@ -14,7 +14,6 @@
 //   receivers       float [R4_RECEIVER_PLANES, stride]  sorted; see below
 //   bounds          float [node, R4_BOUNDS, R4_WIDTH]    of 16 triangles, of 16 such nodes, ..
 //   corners         float [node, R4_CORNERS, R4_WIDTH]   of the triangles of the lowest nodes
-//   triangles       float4 [triangle, R4_TRIANGLE]       sorted
 //   order           uint [triangle]                      index into the mesh; R4_SURFACE: its opacity varies
 //   masks           uint [rows * words, pixel]           bit j of row i: sample (i, j) is hidden
 #ifndef SHARED_RASTER4D_H
@@ -36,11 +35,6 @@ SHARED_BEGIN
 #define R4_PIXEL 8      // uint bits
 #define R4_RECEIVER_PLANES 9
 
-// float4s of a triangle; lanes 0 to 2 are the edges (0,1), (1,2), (2,0), lane 3 stands for the plane
-#define R4_BASE 0       // 3: x, y, z of the corner that an edge is measured from; lane 3: corner 0
-#define R4_EDGE 3       // 3: end less start; lane 3: the plane's normal
-#define R4_FARTHEST 6   // lane 2: -normal.corner 0; lane 3: the largest z of a corner
-#define R4_TRIANGLE 7
 #define R4_CORNERS 9    // x, y, z of corner 0, then of 1 and 2: [node, R4_CORNERS, R4_WIDTH] as bounds
 
 typedef struct {

@@ -139,35 +139,12 @@ inline void boundTriangle(const Raster4dParams* p, const float3* v, float* bound
     }
 }
 
-inline int precedes(float3 a, float3 b) {
-    if (a.x != b.x) return a.x < b.x;
-    return a.y != b.y ? a.y < b.y : a.z < b.z;
-}
-
-inline void storeTriangle(const float3* v, global float4* restrict t) {
-    float3 base[3], edge[3];
-    for (int i = 0; i < 3; ++i) {
-        const float3 a = v[i], b = v[i == 2 ? 0 : i + 1];
-        base[i] = precedes(a, b) ? a : b;
-        edge[i] = b - a;
-    }
-    const float3 n = cross3(edge[0], v[2] - v[0]);
-    t[R4_BASE + 0] = (float4)(base[0].x, base[1].x, base[2].x, v[0].x);
-    t[R4_BASE + 1] = (float4)(base[0].y, base[1].y, base[2].y, v[0].y);
-    t[R4_BASE + 2] = (float4)(base[0].z, base[1].z, base[2].z, v[0].z);
-    t[R4_EDGE + 0] = (float4)(edge[0].x, edge[1].x, edge[2].x, n.x);
-    t[R4_EDGE + 1] = (float4)(edge[0].y, edge[1].y, edge[2].y, n.y);
-    t[R4_EDGE + 2] = (float4)(edge[0].z, edge[1].z, edge[2].z, n.z);
-    t[R4_FARTHEST] = (float4)(0.0f, 0.0f, -fma(n.x, v[0].x, fma(n.y, v[0].y, n.z * v[0].z)),
-                              max(v[0].z, max(v[1].z, v[2].z)));
-}
-
 /// One work-item per slot of the lowest nodes: its triangle and its bounds; -infinity where there is none.
 kernel void raster4d_triangles(const Raster4dParams params, global const float4* restrict grid,
                                global const uint* restrict indices, global const uint* restrict triangleDraw,
                                global const Draw* restrict draws, global const uint* restrict keys,
                                global const uint* restrict sorted, global float* restrict bounds,
-                               global float* restrict corners, global float4* restrict triangles, global uint* restrict order) {
+                               global float* restrict corners, global uint* restrict order) {
     const int slot = get_global_id(0);
     if (slot >= params.nodeCount[0] * R4_WIDTH) return;
     float box[R4_BOUNDS];
@@ -183,7 +160,6 @@ kernel void raster4d_triangles(const Raster4dParams params, global const float4*
             out[2 * R4_WIDTH] = v[i].z;
         }
         boundTriangle(&params, v, box);
-        storeTriangle(v, triangles + (size_t)slot * R4_TRIANGLE);
         const uint flags = draws[triangleDraw[triangle]].flags;
         order[slot] = triangle | (flags & (DRAW_MASK | DRAW_BLEND) ? R4_SURFACE : 0u);
     }

@@ -4,7 +4,6 @@
 
 #define TILE_LIST 1024  // clusters that a tile remembers; its groups look for the rest themselves
 #define GROUP_LIST 256  // triangles of a group before they are rasterised
-#define FULL_CHECK 8    // triangles between looks whether all samples are hidden
 
 /// Nodes that passed, with their bounds; padded by a vector.
 typedef struct {
@@ -104,7 +103,6 @@ inline int maskFull(const Raster4dParams* p, const uint* mask) {
 
 typedef struct {
     global const float* receivers;
-    global const float4* triangles;
     global const uint* order;
     MaskCells cells;
     MaskSurfaces surfaces;
@@ -130,37 +128,36 @@ inline MaskReceiver maskReceiver(const Raster4dParams* p, global const float* re
     return r;
 }
 
-/// Pairs that are to be rasterised, with the rows that the triangle's projection reaches.
+/// Pairs that are to be rasterised.
 typedef struct {
-    uint index[GROUP_LIST + 16];
-    int first[GROUP_LIST + 16], last[GROUP_LIST + 16];
+    int at[GROUP_LIST + 16];  ///< in the list of triangles
     int count;
 } PairList;
 
-/// Lanes whose triangles may reach a sample; a triangle with a corner beyond the receiver may reach all.
-inline VI projectTriangles(const Raster4dParams* p, const MaskReceiver* r, const TriangleList* list, int at, VI* first,
+/// Rows that triangles reach, between the projections of their corners; a triangle with a corner beyond the
+/// receiver may reach all. Returns the lanes whose projection may hold a sample.
+inline VI projectTriangles(const Raster4dParams* p, const MaskReceiver* r, const MaskTriangles* t, VI* first,
                            VI* last) {
-    VF lowX = (VF)INFINITY, lowY = (VF)INFINITY, highX = -(VF)INFINITY, highY = -(VF)INFINITY, farthest = (VF)0.0f;
+    VF lowX = (VF)INFINITY, lowY = (VF)INFINITY, highX = -(VF)INFINITY, highY = -(VF)INFINITY;
+#pragma unroll
     for (int k = 0; k < 3; ++k) {
-        const VF z = V_LOAD(list->corner[3 * k + 2] + at, 0);
-        const VF reach = r->q.z / (r->q.z - z);
-        const VF x = fma(V_LOAD(list->corner[3 * k] + at, 0) - r->q.x, reach, (VF)r->q.x);
-        const VF y = fma(V_LOAD(list->corner[3 * k + 1] + at, 0) - r->q.y, reach, (VF)r->q.y);
+        const VF reach = r->q.z / (r->q.z - t->at[3 * k + 2]);
+        const VF x = fma(t->at[3 * k] - r->q.x, reach, (VF)r->q.x);
+        const VF y = fma(t->at[3 * k + 1] - r->q.y, reach, (VF)r->q.y);
         lowX = min(lowX, x);
         lowY = min(lowY, y);
         highX = max(highX, x);
         highY = max(highY, y);
-        farthest = max(farthest, z);
     }
-    const VI before = V_MASK(farthest < r->q.z);
-    const VF columns = (VF)(float)(p->columns - 1), rows = (VF)(float)(p->rows - 1);
-    const VF left = max(ceil(lowX - r->marginX), (VF)0.0f), right = min(floor(highX + r->marginX), columns);
-    const VF top = max(ceil(lowY - r->marginY), (VF)0.0f), bottom = min(floor(highY + r->marginY), rows);
-    const VI reaches = V_MASK(left <= right) & V_MASK(top <= bottom);
-    const VI bounded = reaches & before;
-    *first = V_TO_INT(V_SELECT((VF)0.0f, top, bounded));
-    *last = V_TO_INT(V_SELECT(rows, bottom, bounded));
-    return reaches | ~before;
+    const VI before = V_MASK(max(t->at[2], max(t->at[5], t->at[8])) < r->q.z);
+    const VF columns = (VF)(float)(p->columns - 1), rows = (VF)(float)(p->rows - 1), none = (VF)0.0f;
+    const VF left = clamp(lowX - r->marginX, none, (VF)(float)R4_ROWS), right = min(highX + r->marginX, columns);
+    const VF top = clamp(lowY - r->marginY, none, (VF)(float)R4_ROWS), bottom = min(highY + r->marginY, rows);
+    const VI meets = V_MASK(left <= right) & V_MASK(top <= bottom) & before;
+    *first = maskCeil(V_SELECT(none, top, meets));
+    *last = V_TO_INT(V_SELECT(rows, bottom, meets));
+    return ~before | (V_MASK(maskCeil(V_SELECT(none, left, meets)) <= V_TO_INT(V_SELECT(none, right, meets))) &
+                      V_MASK(*first <= *last) & meets);
 }
 
 inline void listPairs(const Raster4dParams* p, const MaskReceiver* r, const TriangleList* list, PairList* pairs) {
@@ -168,21 +165,56 @@ inline void listPairs(const Raster4dParams* p, const MaskReceiver* r, const Tria
     for (int at = 0; at < list->count; at += LANES) {
         VI pass = PASSING(list->bound[0] + at, GROUP_LIST + 16, r->key);
         if (!V_ANY(pass)) continue;
+        MaskTriangles triangles;
+#pragma unroll
+        for (int k = 0; k < R4_CORNERS; ++k) triangles.at[k] = V_LOAD(list->corner[k] + at, 0);
         VI first, last;
-        pass &= projectTriangles(p, r, list, at, &first, &last);
+        pass &= projectTriangles(p, r, &triangles, &first, &last);
         if (!V_ANY(pass)) continue;
-        int hits[LANES], firsts[LANES], lasts[LANES];
+        int hits[LANES];
         V_STORE(pass, hits, 0);
-        V_STORE(first, firsts, 0);
-        V_STORE(last, lasts, 0);
+#pragma unroll
         for (int lane = 0; lane < LANES; ++lane) {
-            pairs->index[count] = list->index[at + lane];
-            pairs->first[count] = firsts[lane];
-            pairs->last[count] = lasts[lane];
+            pairs->at[count] = at + lane;
             count += hits[lane] != 0;
         }
     }
     pairs->count = count;
+    for (int lane = 0; lane < LANES; ++lane) pairs->at[count + lane] = 0;  // something to load
+}
+
+/// Rasterises LANES pairs from `from` on.
+inline void rasterPairs(const Raster4dParams* p, const Raster4dInputs* in, const MaskReceiver* r,
+                        const TriangleList* list, const PairList* pairs, int from, uint* mask) {
+    const VI at = V_LOAD(pairs->at + from, 0);
+    MaskTriangles triangles;
+#pragma unroll
+    for (int k = 0; k < R4_CORNERS; ++k) triangles.at[k] = V_GATHER_(VF, list->corner[k], at);
+    VI firstRow, lastRow;
+    projectTriangles(p, r, &triangles, &firstRow, &lastRow);
+    const MaskLines lines = maskLines(r->q, &triangles);
+    MaskEnds ends;
+    maskEnds(&lines, &ends);
+    uint bits[2][LANES];
+    maskOneRow(p, &ends, V_TO_FLOAT(firstRow), bits);
+    int valid[LANES], before[LANES], firsts[LANES], lasts[LANES];
+    V_STORE(firstRow, firsts, 0);
+    V_STORE(lastRow, lasts, 0);
+    V_STORE(lines.valid, valid, 0);
+    V_STORE(lines.before, before, 0);
+    for (int lane = 0; lane < LANES && from + lane < pairs->count; ++lane) {
+        if (!valid[lane]) continue;
+        const int first = firsts[lane], last = lasts[lane], planes = before[lane] ? 3 : 4;
+        const uint triangle = in->order[list->index[pairs->at[from + lane]]];
+        if (!p->centred || (triangle & R4_SURFACE)) {
+            pairSamples(p, &ends, lane, planes, first, last, triangle, &in->cells, &in->surfaces, mask);
+        } else if (first == last && planes == 3) {
+            mask[first] |= bits[0][lane];
+            if (p->words > 1) mask[MASK_STRIDE + first] |= bits[1][lane];
+        } else {
+            maskRows(p, &ends, lane, planes, first, last, mask);
+        }
+    }
 }
 
 /// Rasterises a list of triangles into the mask of receiver i.
@@ -190,10 +222,9 @@ inline void rasterList(const Raster4dParams* p, const Raster4dInputs* in, const 
     const MaskReceiver r = maskReceiver(p, in->receivers, i);
     PairList pairs;
     listPairs(p, &r, list, &pairs);
-    for (int k = 0; k < pairs.count; ++k) {
-        if (k % FULL_CHECK == 0 && maskFull(p, mask)) return;
-        maskPair(p, r.q, in->triangles + (size_t)pairs.index[k] * R4_TRIANGLE, in->order[pairs.index[k]],
-                 pairs.first[k], pairs.last[k], &in->cells, &in->surfaces, mask);
+    for (int from = 0; from < pairs.count; from += LANES) {
+        if (maskFull(p, mask)) return;
+        rasterPairs(p, in, &r, list, &pairs, from, mask);
     }
 }
 
@@ -216,7 +247,7 @@ kernel void raster4d_bins(const Raster4dParams params, const ReceiverParams imag
                           global const float* restrict planes, global const float* restrict receivers,
                           global const uint* restrict receiverCount, global const float* restrict bounds0,
                           global const float* restrict bounds1, global const float* restrict bounds2,
-                          global const float* restrict corners, global const float4* restrict triangles, global const uint* restrict order,
+                          global const float* restrict corners, global const uint* restrict order,
                           global const float* restrict cellX, global const float* restrict cellY,
                           global const int* restrict cellSample, global const uint* restrict empty,
                           RASTER4D_SURFACES, global float* restrict visibility, global uint* restrict masks) {
@@ -224,7 +255,6 @@ kernel void raster4d_bins(const Raster4dParams params, const ReceiverParams imag
     const int count = min((int)*receiverCount - first, params.tileGroups * R4_WIDTH);
     if (count <= 0) return;
     const Raster4dInputs in = {receivers,
-                               triangles,
                                order,
                                {cellX, cellY, cellSample},
                                {indices, triangleDraw, draws, materials, uvs, colours, texels}};

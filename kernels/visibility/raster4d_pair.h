@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One receiver and one triangle, whatever the light's samples and the triangle's material.
+// Pairs of a receiver and a triangle that rows of intervals do not decide: samples off the centres of their
+// cells, and opacity that varies over the triangle.
 #ifndef RASTER4D_PAIR_H
 #define RASTER4D_PAIR_H
 #include "lib/occlusion_mask.h"
@@ -21,6 +22,13 @@ typedef struct {
         global const Draw *restrict draws, global const Material *restrict materials,              \
         global const float *restrict uvs, global const uint *restrict colours, global const uint *restrict texels
 
+/// True positions of samples, in grid coordinates, and which cells have one.
+typedef struct {
+    global const float* x;     ///< [row * columns + column]
+    global const float* y;
+    global const int* sample;  ///< index of the light sample, -1: none
+} MaskCells;
+
 /// 1 if the surface at barycentric coordinates b blocks a light sample.
 inline int surfaceBlocks(const Raster4dParams* p, const MaskSurfaces* s, uint triangle, float3 b, int sample) {
     const uint drawIndex = s->triangleDraw[triangle];
@@ -32,55 +40,32 @@ inline int surfaceBlocks(const Raster4dParams* p, const MaskSurfaces* s, uint tr
                          p->sampleStride);
 }
 
-/// Rows first to last sample by sample where an interval does not decide: samples off the centres of
-/// their cells, opacity that varies, and corners beyond the receiver (`planes` 4).
-inline void pairSamples(const Raster4dParams* p, const MaskLines* lines, const MaskEnds* ends, int planes,
-                        int first, int last, uint triangle, const MaskCells* cells, const MaskSurfaces* surfaces,
-                        uint* mask) {
+/// Rows first to last of one lane's triangle, sample by sample.
+inline void pairSamples(const Raster4dParams* p, const MaskEnds* e, int lane, int planes, int first, int last,
+                        uint triangle, const MaskCells* cells, const MaskSurfaces* surfaces, uint* mask) {
     const int surface = (triangle & R4_SURFACE) != 0;
     for (int row = first; row <= last; ++row) {
-        float left, right;
-        maskRow(ends, planes, row, p->centred ? 0.0f : 0.5f, (float)p->columns, &left, &right);
-        if (!(left <= right)) continue;
-        const int stop = (int)floor(right);
-        for (int column = (int)ceil(left); column <= stop; ++column) {
+        const float2 columns = maskColumns(p, e, lane, planes, (float)row, p->centred ? 0.0f : 0.5f);
+        if (!(columns.x <= columns.y)) continue;
+        const int stop = (int)columns.y;
+        for (int column = (int)ceil(columns.x); column <= stop; ++column) {
             uint* word = mask + (column >> 5) * MASK_STRIDE + row;
             const uint bit = 1u << (column & 31);
-            if (*word & bit) continue;
             const int cell = row * p->columns + column;
-            if (cells->sample[cell] < 0) continue;
-            if (!p->centred || surface) {
-                const float4 e = maskAt(lines, cells->x[cell], cells->y[cell]);
-                if (!p->centred && !(e.x >= 0.0f && e.y >= 0.0f && e.z >= 0.0f && (planes < 4 || e.w > 0.0f)))
-                    continue;
-                const float sum = e.x + e.y + e.z;
-                if (surface && !surfaceBlocks(p, surfaces, triangle & ~R4_SURFACE,
-                                              (float3)(e.y / sum, e.z / sum, e.x / sum), cells->sample[cell]))
-                    continue;
+            if ((*word & bit) || cells->sample[cell] < 0) continue;
+            float at[4];
+            int inside = 1;
+            for (int k = 0; k < 4; ++k) {
+                at[k] = fma(e->a[k][lane], cells->x[cell], fma(e->b[k][lane], cells->y[cell], e->c[k][lane]));
+                inside &= k >= planes || at[k] >= 0.0f;
             }
+            if (!p->centred && !inside) continue;
+            // Opposite to corner 0 lies edge (1,2)
+            const float3 b = (float3)(at[1], at[2], at[0]) / (at[0] + at[1] + at[2]);
+            if (surface && !surfaceBlocks(p, surfaces, triangle & ~R4_SURFACE, b, cells->sample[cell])) continue;
             *word |= bit;
         }
     }
-}
-
-/// Adds to `mask` what the triangle hides in rows first to last.
-inline void maskPair(const Raster4dParams* p, float3 q, global const float4* restrict t, uint triangle, int first,
-                     int last, const MaskCells* cells, const MaskSurfaces* surfaces, uint* mask) {
-    MaskLines lines;
-    if (!maskLines(q, t, &lines)) return;
-    const int planes = t[R4_FARTHEST].w < q.z ? 3 : 4;
-    if (planes == 4) {
-        // None of the samples lies beyond the triangle's plane
-        const float reach = lines.c.w + max(lines.a.w, 0.0f) * ((float)p->columns - 0.5f) +
-                            max(lines.b.w, 0.0f) * ((float)p->rows - 0.5f) - min(lines.a.w, 0.0f) * 0.5f -
-                            min(lines.b.w, 0.0f) * 0.5f;
-        if (reach < 0.0f) return;
-    }
-    const MaskEnds ends = maskEnds(&lines);
-    if (p->centred && !(triangle & R4_SURFACE))
-        maskRows(p, &ends, planes, first, last, mask);
-    else
-        pairSamples(p, &lines, &ends, planes, first, last, triangle, cells, surfaces, mask);
 }
 
 #endif
