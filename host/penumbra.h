@@ -63,7 +63,13 @@ struct Frame {
     /// for.
     std::vector<Channel> depthMaps;
     int depthMapSize = 0;
-    std::vector<std::pair<std::string, std::string>> header;  ///< what made it; goes into files
+    /// Occlusion masks, one list of planes "<light>.<row>.<word>" of maskWidth x maskHeight each:
+    /// bit j of word w is set if the light sample in column 32 w + j of that row is hidden. Empty
+    /// unless asked for. Of all supersamples.
+    std::vector<Channel> masks;
+    int maskWidth = 0, maskHeight = 0;
+    std::vector<std::pair<std::string, std::string>> maskCells;  ///< light -> "COLUMNSxROWS"
+    std::vector<std::pair<std::string, std::string>> header;     ///< what made it; goes into files
     std::string fingerprint;  ///< equal if scene, options, device and version are
     std::string statsJson;    ///< measurements of this frame, a JSON object
 };
@@ -99,6 +105,8 @@ void writeExr(const std::string& path, const Frame& frame);
 void writePng(const std::string& path, const Frame& frame);
 /// Where writeExr puts the depth maps of a frame.
 std::string depthMapsPath(const std::string& framePath);
+/// Where writeExr puts the occlusion masks of a frame.
+std::string masksPath(const std::string& framePath);
 /// Fingerprint in a whole EXR or PNG file; empty if there is none or the file is damaged.
 std::string readFingerprint(const std::string& path);
 

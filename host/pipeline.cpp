@@ -101,17 +101,18 @@ AovChoice parseAovs(const std::vector<std::string>& names) {
         {"visibility", &AovChoice::visibility}, {"depth", &AovChoice::depth},
         {"normal", &AovChoice::normal},         {"position", &AovChoice::position},
         {"albedo", &AovChoice::albedo},         {"id", &AovChoice::id},
-        {"depth-maps", &AovChoice::depthMaps}};
+        {"depth-maps", &AovChoice::depthMaps},  {"mask", &AovChoice::mask}};
     for (const auto& name : names) {
         bool known = name == "all";
         for (const auto& [key, member] : all)
-            // "all" leaves out depth maps, which are gigabytes
-            if (name == key || (name == "all" && member != &AovChoice::depthMaps))
+            // "all" leaves out depth maps and masks, which are gigabytes
+            if (name == key ||
+                (name == "all" && member != &AovChoice::depthMaps && member != &AovChoice::mask))
                 aovs.*member = known = true;
         requireUsage(
             known,
             "--aov '{}' is unknown; allowed: all, visibility, depth, normal, position, albedo, id, "
-            "depth-maps",
+            "depth-maps, mask",
             name);
     }
     return aovs;
@@ -213,6 +214,7 @@ std::uint64_t Pipeline::planFrame() const {
     const auto& mesh = geometry_->mesh();
     plan.addHeld("scene and images");
     plan.add(fmt::format("lists and maps of {}", options_.technique), technique_->frameBytes(mesh));
+    if (maskBytes_ > 0) plan.add("occlusion masks", maskBytes_);
     const auto lights = std::max<std::size_t>(scene_.lights.size(), 1);
     if (options_.temporal > 1)
         plan.add("visibility history",
@@ -236,7 +238,7 @@ void Pipeline::makePasses() {
                  options_.technique);
     const auto pose = scene::poseAt(scene_, clips_, 0);
     for (const auto& light : scene::lightsAt(scene_, pose, bounds_, sampleChoice(options_, 0)))
-        technique_->check(light);
+        checkLight(light);
     if (geometry_->mesh().hasBlend)
         warnOnce(
             "blended and transmissive surfaces are seen as opaque where their alpha is above 0.5, "
@@ -249,6 +251,15 @@ void Pipeline::makePasses() {
     visibility_.planes =
         runtime::Buffer<float>(*device_, "visibility", runtime::Shape{1, channels, pixels});
     visibility_.state = runtime::Buffer<std::uint32_t>(*device_, "pixel states", pixels);
+}
+
+void Pipeline::checkLight(const scene::AreaLight& light) {
+    technique_->check(light);
+    if (!aovs_.mask) return;
+    const auto bytes = technique_->maskBytes(light);
+    requireUsage(bytes > 0, "--aov mask: technique {} makes no occlusion masks; raster4d does",
+                 options_.technique);
+    maskBytes_ = std::max(maskBytes_, bytes);
 }
 
 double Pipeline::secondsOf(int number) const {
@@ -267,17 +278,21 @@ void Pipeline::enqueue(const geometry::Mesh& mesh, bool keep) {
     technique_->prepare(mesh, bounds_, bounds_.centre());
     keptVisibility_.clear();
     keptMaps_.clear();
+    keptMasks_.clear();
     keptStates_.clear();
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         visibility::DepthMaps maps;
-        technique_->run({mesh, gbuffer, lights_[i], bounds_, bounds_.centre(),
-                         keep && aovs_.depthMaps ? &maps : nullptr},
-                        visibility_);
+        visibility::OcclusionMasks masks;
+        technique_->run(
+            {mesh, gbuffer, lights_[i], bounds_, bounds_.centre(),
+             keep && aovs_.depthMaps ? &maps : nullptr, keep && aovs_.mask ? &masks : nullptr},
+            visibility_);
         temporal_->run(gbuffer, i, visibility_);
         shade_->add(gbuffer, lights_[i], visibility_, camera_, bounds_.centre());
         if (keep && keepStates_) keptStates_.push_back(visibility_.state.download());
         if (keep && aovs_.visibility) keptVisibility_.push_back(visibility_.planes.download());
         if (keep && aovs_.depthMaps) keptMaps_.push_back(std::move(maps));
+        if (keep && aovs_.mask) keptMasks_.push_back(std::move(masks));
     }
 }
 
@@ -346,6 +361,8 @@ Frame Pipeline::collect(int number) {
         image::addVisibility(planes, lights_[i].name, keptVisibility_[i], frame);
     for (std::size_t i = 0; i < keptMaps_.size(); ++i)
         image::addDepthMaps(lights_[i].name, keptMaps_[i], frame);
+    for (std::size_t i = 0; i < keptMasks_.size(); ++i)
+        image::addMasks(planes, lights_[i].name, keptMasks_[i], frame);
     frame.number = number;
     frame.exposure = exposure_;
     frame.header = header();

@@ -22,7 +22,7 @@ namespace penumbra {
 /// Which extra channels a frame carries.
 struct AovChoice {
     bool visibility = false, depth = false, normal = false, position = false, albedo = false,
-         id = false, depthMaps = false;
+         id = false, depthMaps = false, mask = false;
 };
 /// Throws Error (usage) naming what is allowed.
 AovChoice parseAovs(const std::vector<std::string>& names);
@@ -52,6 +52,7 @@ class Pipeline {
   private:
     double secondsOf(int number) const;
     void makePasses();
+    void checkLight(const scene::AreaLight& light);
     /// What can be said before anything is allocated, and what the first frame will add to what is
     /// held then. Throw Error (exit code 4) with the figures where that does not fit.
     void planScene() const;
@@ -85,12 +86,13 @@ class Pipeline {
     visibility::Visibility visibility_;
     std::vector<std::vector<float>> keptVisibility_;  ///< per light, when asked for
     std::vector<visibility::DepthMaps> keptMaps_;
+    std::vector<visibility::OcclusionMasks> keptMasks_;
     bool keepStates_ = false;
     std::vector<std::vector<std::uint32_t>> keptStates_;  ///< per light, when asked for
     std::vector<scene::AreaLight> lights_;                ///< of the frame in flight
     scene::CameraFrame camera_;
     double exposure_ = 1;
-    std::uint64_t plannedBytes_ = 0;
+    std::uint64_t plannedBytes_ = 0, maskBytes_ = 0;
     glm::dvec3 ambient_{0};
     std::string fingerprint_;
     std::vector<std::string> warnings_, warned_;

@@ -105,7 +105,7 @@ void addOutput(CLI::App& render, Arguments& a) {
     render
         .add_option("--aov", o.aovs,
                     "extra channels of EXR files: all, visibility, depth, normal, position, "
-                    "albedo, id, depth-maps")
+                    "albedo, id, depth-maps, mask")
         ->allow_extra_args(false)
         ->delimiter(',');
     render.add_flag("--resume", r.resume, "skip whole frames of the same fingerprint");

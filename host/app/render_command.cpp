@@ -90,9 +90,12 @@ class Progress {
 bool isWhole(const std::string& path, const std::string& fingerprint,
              const RenderOptions& options) {
     if (readFingerprint(path) != fingerprint) return false;
-    const auto& aovs = options.aovs;
-    return std::find(aovs.begin(), aovs.end(), "depth-maps") == aovs.end() ||
-           readFingerprint(depthMapsPath(path)) == fingerprint;
+    const auto isWritten = [&](const char* aov, const std::string& file) {
+        const auto& aovs = options.aovs;
+        return std::find(aovs.begin(), aovs.end(), aov) == aovs.end() ||
+               readFingerprint(file) == fingerprint;
+    };
+    return isWritten("depth-maps", depthMapsPath(path)) && isWritten("mask", masksPath(path));
 }
 
 void writeStats(const std::string& path, const Renderer& renderer, const nlohmann::json& frames) {

@@ -86,12 +86,23 @@ void writeDepthMaps(const std::string& path, const void* context) {
     writeFile(path, header, planes, frame.depthMapSize);
 }
 
+void writeMasks(const std::string& path, const void* context) {
+    const auto& frame = *static_cast<const Frame*>(context);
+    Imf::Header header(frame.maskWidth, frame.maskHeight);
+    addHeader(frame, header);
+    for (const auto& [light, cells] : frame.maskCells)
+        header.insert("penumbra.mask." + light, Imf::StringAttribute(cells));
+    Planes planes;
+    addChannels(frame.masks, frame.maskWidth, header, planes);
+    writeFile(path, header, planes, frame.maskHeight);
+}
+
 }  // namespace
 
 void writeExrFile(const std::string& path, const Frame& frame) {
     writeWhole(path, &frame, writeFrame);
-    if (frame.depthMaps.empty()) return;
-    writeWhole(depthMapsPath(path), &frame, writeDepthMaps);
+    if (!frame.depthMaps.empty()) writeWhole(depthMapsPath(path), &frame, writeDepthMaps);
+    if (!frame.masks.empty()) writeWhole(masksPath(path), &frame, writeMasks);
 }
 
 LoadedImage readExrFile(const std::string& path) try {

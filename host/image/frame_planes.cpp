@@ -115,6 +115,23 @@ void addVisibility(const FramePlanes& p, const std::string& light,
     }
 }
 
+void addMasks(const FramePlanes& p, const std::string& light,
+              const visibility::OcclusionMasks& masks, Frame& frame) {
+    frame.maskWidth = p.width * p.supersample;
+    frame.maskHeight = p.height * p.supersample;
+    frame.maskCells.emplace_back(light, fmt::format("{}x{}", masks.columns, masks.rows));
+    const auto pixels = static_cast<std::ptrdiff_t>(frame.maskWidth) *
+                        static_cast<std::ptrdiff_t>(frame.maskHeight);
+    for (int plane = 0; plane < masks.rows * masks.words(); ++plane) {
+        const auto first = masks.bits.begin() + static_cast<std::ptrdiff_t>(
+                                                    static_cast<std::size_t>(plane) * masks.stride);
+        frame.masks.push_back(
+            {fmt::format("{}.{:02}.{}", light, plane / masks.words(), plane % masks.words()),
+             {},
+             {first, first + pixels}});
+    }
+}
+
 void addDepthMaps(const std::string& light, const visibility::DepthMaps& maps, Frame& frame) {
     frame.depthMapSize = maps.size;
     const auto texels = static_cast<std::size_t>(maps.size) * static_cast<std::size_t>(maps.size);

@@ -27,6 +27,8 @@ Frame assembleFrame(const FramePlanes& planes, const AovChoice& aovs, const glm:
 /// Adds visibility.<light>.R, .G, .B; one channel of visibility is written three times.
 void addVisibility(const FramePlanes& planes, const std::string& light,
                    const std::vector<float>& visibility, Frame& frame);
+void addMasks(const FramePlanes& planes, const std::string& light,
+              const visibility::OcclusionMasks& masks, Frame& frame);
 void addDepthMaps(const std::string& light, const visibility::DepthMaps& maps, Frame& frame);
 
 }  // namespace penumbra::image

@@ -59,6 +59,11 @@ std::string depthMapsPath(const std::string& framePath) {
     return (file.parent_path() / (file.stem().string() + ".depth-maps.exr")).string();
 }
 
+std::string masksPath(const std::string& framePath) {
+    const std::filesystem::path file(framePath);
+    return (file.parent_path() / (file.stem().string() + ".mask.exr")).string();
+}
+
 void writePng(const std::string& path, const Frame& frame) {
     image::writeWhole(path, &frame, [](const std::string& temporary, const void* context) {
         image::writePngFile(temporary, *static_cast<const Frame*>(context));

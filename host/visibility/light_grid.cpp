@@ -130,12 +130,14 @@ shared::Raster4dParams gridParams(const LightGrid& grid, const scene::AreaLight&
     p.corner = narrow(origin - shift[0] * stepX - shift[1] * stepY, 0);
     p.stepX = narrow(stepX, 0);
     p.stepY = narrow(stepY, 0);
+    p.stepZ = narrow(unit * light.axisZ, 0);
     p.halfWidth = static_cast<float>(light.width / 2);
     p.halfHeight = static_cast<float>(light.height / 2);
     p.columns = grid.columns;
     p.rows = grid.rows;
     p.words = grid.words();
     p.centred = grid.centred ? 1 : 0;
+    p.slack = grid.centred ? 0 : 0.5F;
     p.samples = static_cast<int>(light.samples.size());
     const double radius = casters.empty ? unit : std::max(casters.radius(), 1e-30);
     const glm::dvec3 middle = casters.empty ? glm::dvec3(0) : casters.centre() - centre - origin;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/visibility/light_view.h"
+#include "host/visibility/raster4d_grid.h"
 #include "kernels/shared/gbuffer.h"
 #include "kernels/shared/multi_view.h"
 #include "runtime/profiler.h"
@@ -66,8 +67,9 @@ void LightTriangles::run(const Mesh& mesh, shared::Raster4dParams& p) {
     const auto slots = [&](int level) {
         return runtime::Range{static_cast<std::uint64_t>(p.nodeCount[level]) * kWidth};
     };
-    trianglesKernel_.launch(slots(0), {64}, p, grid_, mesh.indices, mesh.triangleDraw, mesh.draws,
-                            keyBuffer_, sorted_, bounds_[0], corners_, order_);
+    trianglesKernel_.launch(slots(0), {64}, p, mesh.positions, grid_, mesh.indices,
+                            mesh.triangleDraw, mesh.draws, keyBuffer_, sorted_, bounds_[0],
+                            corners_, order_);
     for (int level = 1; level < R4_LEVELS; ++level)
         nodes_.launch(slots(level), {64}, p, level, bounds_[level - 1], bounds_[level]);
 }
@@ -113,51 +115,89 @@ Raster4d::Raster4d(const TechniqueContext& context)
       receivers_(frame_, program_, context.width, context.height),
       triangles_(frame_, program_),
       bins_(program_, "raster4d_bins"),
-      masks_(context.device, "occlusion masks", 1) {}
+      masks_(context.device, "occlusion masks", 1) {
+    if (settings_.method == PairMethod::grid)
+        grid_ = std::make_unique<Raster4dGrid>(frame_, program_, settings_);
+}
+
+Raster4d::~Raster4d() = default;
+
+bool Raster4d::grew() {
+    return grid_ && grid_->grew();
+}
 
 std::uint64_t Raster4d::plannedBytes(const TechniqueContext& context) {
     return LightReceivers::bytesFor(context.width, context.height);
 }
 
-void Raster4d::placeCells(const scene::AreaLight& light) {
-    auto& device = program_.device();
-    const bool same = cells_.light.samples == light.samples && cells_.light.width == light.width &&
-                      cells_.light.height == light.height && cells_.x.allocated();
-    if (same) return;
-    cells_.light = light;
-    cells_.grid = fitLightGrid(light);
-    const auto& grid = cells_.grid;
-    std::vector<float> x, y;
+std::uint64_t Raster4d::maskBytes(const scene::AreaLight& light) const {
+    const LightGrid grid = fitLightGrid(light);
+    return static_cast<std::uint64_t>(grid.rows * grid.words()) *
+           static_cast<std::uint64_t>(receivers_.image().planeStride) * sizeof(U32);
+}
+
+void Raster4d::keepMasks(OcclusionMasks& masks) const {
+    masks.columns = cells_.grid.columns;
+    masks.rows = cells_.grid.rows;
+    masks.samples = cells_.grid.sample;
+    masks.stride = static_cast<std::size_t>(receivers_.image().planeStride);
+    masks.bits =
+        masks_.download(0, static_cast<std::uint64_t>(masks.rows * masks.words()) * masks.stride);
+}
+
+void LightCells::place(runtime::Device& device, const scene::AreaLight& newLight) {
+    if (x.allocated() && light.samples == newLight.samples && light.width == newLight.width &&
+        light.height == newLight.height)
+        return;
+    light = newLight;
+    grid = fitLightGrid(light);
+    std::vector<float> columns, rows;
     for (const auto& p : grid.position) {
-        x.push_back(p.x);
-        y.push_back(p.y);
+        columns.push_back(p.x);
+        rows.push_back(p.y);
     }
-    std::vector<U32> empty(static_cast<std::size_t>(grid.words() * grid.rows), ~0U);
+    std::vector<std::uint32_t> without(static_cast<std::size_t>(grid.words() * grid.rows), ~0U);
     for (int row = 0; row < grid.rows; ++row)
         for (int column = 0; column < grid.columns; ++column)
             if (grid.sample[static_cast<std::size_t>(row * grid.columns + column)] >= 0)
-                empty[static_cast<std::size_t>(column / 32 * grid.rows + row)] &=
+                without[static_cast<std::size_t>(column / 32 * grid.rows + row)] &=
                     ~(1U << (column % 32));
     const auto cells = grid.sample.size();
-    cells_.x.grow(device, "columns of samples", cells);
-    cells_.y.grow(device, "rows of samples", cells);
-    cells_.sample.grow(device, "cells' samples", cells);
-    cells_.empty.grow(device, "cells without a sample", empty.size());
-    cells_.x.uploadLater(x);
-    cells_.y.uploadLater(y);
-    cells_.sample.uploadLater(grid.sample);
-    cells_.empty.uploadLater(empty);
+    x.grow(device, "columns of samples", cells);
+    y.grow(device, "rows of samples", cells);
+    sample.grow(device, "cells' samples", cells);
+    empty.grow(device, "cells without a sample", without.size());
+    x.uploadLater(columns);
+    y.uploadLater(rows);
+    sample.uploadLater(grid.sample);
+    empty.uploadLater(without);
 }
 
 void Raster4d::run(const Inputs& inputs, Visibility& visibility) {
     visibility.channels = 1;
-    placeCells(inputs.light);
+    auto& device = program_.device();
+    cells_.place(device, inputs.light);
     auto params = gridParams(cells_.grid, inputs.light, inputs.casters, inputs.centre);
     params.sampleStride = shuffleStride(params.samples);
-    params.tileGroups = program_.device().info().isCpu ? 16 : 1;
+    params.tileGroups = device.info().isCpu ? 16 : 1;
+    params.rowAtOnce = settings_.rowAtOnce ? 1 : 0;
+    if (inputs.masks) {
+        params.keepMasks = 1;
+        masks_.grow(device, "occlusion masks", maskBytes(inputs.light) / sizeof(U32));
+        masks_.fill(0);
+    }
     receivers_.run(inputs, params, visibility);
     triangles_.run(inputs.mesh, params);
-    program_.device().profiler().beginStage("masks");
+    device.profiler().beginStage("masks");
+    if (grid_)
+        grid_->run(inputs, params, receivers_, triangles_, cells_, visibility, masks_);
+    else
+        runBins(inputs, params, visibility);
+    if (inputs.masks) keepMasks(*inputs.masks);
+}
+
+void Raster4d::runBins(const Inputs& inputs, const shared::Raster4dParams& params,
+                       Visibility& visibility) {
     const auto& mesh = inputs.mesh;
     const auto tile = static_cast<std::uint64_t>(params.tileGroups * R4_WIDTH);
     const auto pixels = static_cast<std::uint64_t>(params.planeStride);

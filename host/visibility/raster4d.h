@@ -9,9 +9,34 @@
 
 namespace penumbra::visibility {
 
+enum class PairMethod { bins, grid };
+
 struct Raster4dSettings {
+    PairMethod method = PairMethod::bins;
+    int grid = 128;
+    bool onePixel = true, reject = true, rowAtOnce = true;
+
     template <typename Row>
-    void rows(Row&) {}
+    void rows(Row& row) {
+        row.choice("method", method, {"bins", "grid"},
+                   "how receivers and triangles meet: bounds of sorted nodes, or the paper's grid; "
+                   "the bits are the same");
+        row.number("grid", grid, 8, 1024, "pixels", "side of the paper's grid");
+        row.flag("onePixel", onePixel,
+                 "grid: a receiver has one pixel, not all of its generalised projection");
+        row.flag("reject", reject, "grid: pairs without full coverage cost no rows");
+        row.flag("rowAtOnce", rowAtOnce, "a row of the mask at once, not a bit at a time");
+    }
+};
+
+/// The cells of one light on the device; kept while its samples stay the same.
+struct LightCells {
+    scene::AreaLight light;
+    LightGrid grid;
+    Buffer<float> x, y;
+    Buffer<int> sample;
+    Buffer<std::uint32_t> empty;
+    void place(runtime::Device& device, const scene::AreaLight& newLight);
 };
 
 /// Posed casters in the grid of one light, sorted and bounded; kernels/shared/raster4d.h.
@@ -35,9 +60,9 @@ class LightTriangles {
     runtime::Kernel<shared::Raster4dParams, Buffer<shared::float4>, Buffer<U32>, Buffer<U32>,
                     Buffer<shared::Draw>, Buffer<U32>, Buffer<U32>>
         keys_;
-    runtime::Kernel<shared::Raster4dParams, Buffer<shared::float4>, Buffer<U32>, Buffer<U32>,
-                    Buffer<shared::Draw>, Buffer<U32>, Buffer<U32>, Buffer<float>, Buffer<float>,
-                    Buffer<U32>>
+    runtime::Kernel<shared::Raster4dParams, Buffer<float>, Buffer<shared::float4>, Buffer<U32>,
+                    Buffer<U32>, Buffer<shared::Draw>, Buffer<U32>, Buffer<U32>, Buffer<float>,
+                    Buffer<float>, Buffer<U32>>
         trianglesKernel_;
     runtime::Kernel<shared::Raster4dParams, int, Buffer<float>, Buffer<float>> nodes_;
     Buffer<shared::float4> grid_;
@@ -72,28 +97,27 @@ class LightReceivers {
     Buffer<float> planes_;
 };
 
+class Raster4dGrid;
+
 class Raster4d : public Technique {
   public:
     explicit Raster4d(const TechniqueContext& context);
+    ~Raster4d() override;
     static std::uint64_t plannedBytes(const TechniqueContext& context);
     bool hasDepthMaps() const override { return false; }
     std::uint64_t frameBytes(const Mesh& mesh) const override {
         return LightTriangles::bytesFor(mesh);
     }
+    std::uint64_t maskBytes(const scene::AreaLight& light) const override;
     void check(const scene::AreaLight& light) const override { fitLightGrid(light); }
     void run(const Inputs& inputs, Visibility& visibility) override;
+    bool grew() override;
     std::vector<SettingRow> settings() const override { return settingsInForce(settings_); }
 
   private:
-    /// The cells of one light on the device; kept while its samples stay the same.
-    struct Cells {
-        scene::AreaLight light;
-        LightGrid grid;
-        Buffer<float> x, y;
-        Buffer<int> sample;
-        Buffer<std::uint32_t> empty;
-    };
-    void placeCells(const scene::AreaLight& light);
+    void runBins(const Inputs& inputs, const shared::Raster4dParams& params,
+                 Visibility& visibility);
+    void keepMasks(OcclusionMasks& masks) const;
 
     Raster4dSettings settings_;
     runtime::Program frame_, program_;
@@ -106,8 +130,9 @@ class Raster4d : public Technique {
                     Buffer<U32>, Buffer<U32>, Buffer<shared::Draw>, Buffer<shared::Material>,
                     Buffer<float>, Buffer<U32>, Buffer<U32>, Buffer<float>, Buffer<U32>>
         bins_;
-    Cells cells_;
+    LightCells cells_;
     Buffer<U32> masks_;
+    std::unique_ptr<Raster4dGrid> grid_;  ///< of the method
 };
 
 }  // namespace penumbra::visibility

@@ -32,13 +32,25 @@ struct DepthMaps {
     std::vector<float> depths;
 };
 
+/// Occlusion masks on the host, when the user asks to see them.
+struct OcclusionMasks {
+    int columns = 0, rows = 0;  ///< cells of the light
+    std::size_t stride = 0;     ///< pixels between planes
+    /// [row, word, stride]: bit j of word w: the sample in column 32 w + j is hidden. Words of 32
+    /// columns.
+    std::vector<std::uint32_t> bits;
+    std::vector<int> samples;  ///< [rows, columns] index of the light sample, -1: none
+    int words() const { return (columns + 31) / 32; }
+};
+
 struct Inputs {
     const Mesh& mesh;
     const GBuffer& gbuffer;
     const scene::AreaLight& light;
     const scene::Bounds& casters;
-    glm::dvec3 centre;               ///< what the world was re-based to
-    DepthMaps* depthMaps = nullptr;  ///< filled if not null (waits for the device)
+    glm::dvec3 centre;                ///< what the world was re-based to
+    DepthMaps* depthMaps = nullptr;   ///< filled if not null (waits for the device)
+    OcclusionMasks* masks = nullptr;  ///< the same
 };
 
 /// What a frame of a technique did; summed over lights.
@@ -58,6 +70,8 @@ class Technique {
                          const glm::dvec3& /*centre*/) {}
     /// False if there are no depth maps to keep for --aov depth-maps.
     virtual bool hasDepthMaps() const { return true; }
+    /// Bytes of a light's occlusion masks, for --aov mask; 0: it makes none.
+    virtual std::uint64_t maskBytes(const scene::AreaLight&) const { return 0; }
     /// Throws Error (usage) if it cannot use the light's samples, naming what it can.
     virtual void check(const scene::AreaLight&) const {}
     /// Bytes that the first frame will allocate at the least; the rest is held by now, or grows

@@ -8,7 +8,7 @@
 // Differs: an edge is measured from the corner that comes first in space, along end less start. Its plane is then
 // the same, but for the sign, in the two triangles that share it, so that no sample falls between them; and far
 // receivers lose no digits to a cross product of two long vectors. Samples on an edge are hidden. The
-// triangle's own plane ([4DR] P3) is looked at only where a corner is farther from the light than q.
+// triangle's own plane ([4DR] P3) is looked at only where a corner does not lie between light and receiver.
 #ifndef LIB_OCCLUSION_MASK_H
 #define LIB_OCCLUSION_MASK_H
 #include "lib/lanes.h"
@@ -19,7 +19,8 @@
 #define MASK_WORDS (2 * MASK_STRIDE)
 #define MASK_BEYOND 1e30f
 
-/// Corners of LANES triangles: x, y, z of corner 0, then of 1 and 2.
+/// Corners of LANES triangles: x, y, z of corner 0, then of 1 and 2, then of the normal. The normal comes from the
+/// world: the grid's rounding would tilt thin triangles, and receivers lie close above their own.
 typedef struct {
     VF at[R4_CORNERS];
 } MaskTriangles;
@@ -28,7 +29,7 @@ typedef struct {
 typedef struct {
     VF a[4], b[4], c[4];
     VI valid;   ///< 0: the receiver lies in the triangle's plane, and nothing is hidden
-    VI before;  ///< all corners are nearer to the light than the receiver
+    VI between;  ///< all corners lie between the planes of light and receiver, so a line that hits does so there
 } MaskLines;
 
 /// Lanes where corner v precedes corner w in space.
@@ -41,17 +42,12 @@ inline MaskLines maskLines(float3 q, const MaskTriangles* t) {
     MaskLines lines;
     const VF* v0 = t->at;
     // The triangle's plane: n.(v0 - q) tells on which side the receiver lies
-    VF e[2][3];
-    for (int i = 0; i < 3; ++i) {
-        e[0][i] = t->at[3 + i] - v0[i];
-        e[1][i] = t->at[6 + i] - v0[i];
-    }
-    const VF nx = e[0][1] * e[1][2] - e[0][2] * e[1][1], ny = e[0][2] * e[1][0] - e[0][0] * e[1][2];
-    const VF nz = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+    const VF nx = t->at[9], ny = t->at[10], nz = t->at[11];
     const VF above = fma(v0[0] - q.x, nx, fma(v0[1] - q.y, ny, (v0[2] - q.z) * nz));
     const VF side = V_SELECT((VF)-1.0f, (VF)1.0f, V_MASK(above > 0.0f));
     lines.valid = V_MASK(fabs(above) > 0.0f);
-    lines.before = V_MASK(max(v0[2], max(t->at[5], t->at[8])) < q.z);
+    lines.between = V_MASK(max(v0[2], max(t->at[5], t->at[8])) < q.z) &
+                    V_MASK(min(v0[2], min(t->at[5], t->at[8])) > 0.0f);
 #pragma unroll
     for (int k = 0; k < 3; ++k) {
         const VF* v = t->at + 3 * k;
@@ -137,7 +133,20 @@ inline void maskRows(const Raster4dParams* p, const MaskEnds* e, int lane, int p
     }
 }
 
-/// One row of each lane's triangle, whose corners must all lie before the receiver: most triangles of a fine
+/// The same bits one at a time: what [4DR] table 2 compares rows with.
+inline void maskBitwise(const Raster4dParams* p, const MaskEnds* e, int lane, int planes, int first, int last,
+                        uint* mask) {
+    for (int row = first; row <= last; ++row)
+        for (int column = 0; column < p->columns; ++column) {
+            int inside = 1;
+            for (int k = 0; k < planes; ++k)
+                inside &= fma(e->leftSlope[k][lane], (float)row, e->leftStart[k][lane]) <= (float)column &&
+                          (float)column <= fma(e->rightSlope[k][lane], (float)row, e->rightStart[k][lane]);
+            mask[(column >> 5) * MASK_STRIDE + row] |= (uint)inside << (column & 31);
+        }
+}
+
+/// One row of each lane's triangle, whose corners must all lie between light and receiver: most triangles of a fine
 /// mesh reach no more. bits [word][lane]
 inline void maskOneRow(const Raster4dParams* p, const MaskEnds* e, VF row, uint bits[2][LANES]) {
     VF left = (VF)0.0f, right = (VF)(float)(p->columns - 1);

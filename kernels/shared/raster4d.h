@@ -6,14 +6,15 @@
 // A receiver q sees the samples at slopes (q.x - j) / q.z. A triangle can hide a sample only if the box of
 // its own slopes, for all samples and corners, holds all of the receiver's ([4DR] 3.2, with the plane P at
 // infinity), and if a corner is nearer to the light than the receiver. Five numbers say so:
-//   receiver  q.x / q.z,  -(q.x - last column) / q.z,  the same for y,  -q.z
+//   receiver  q.x / q.z,  -(q.x - last column) / q.z,  the same for y,  -q.z   (samples off their cells' centres
+//             widen the columns and rows by half a cell at both ends)
 //   triangle  the largest of those of its corners
 // and the pair counts where none of the receiver's is above the triangle's. Boxes of receivers keep the least,
 // boxes of triangles the largest, so that culling a box never loses a pair, to the bit.
 //
 //   receivers       float [R4_RECEIVER_PLANES, stride]  sorted; see below
 //   bounds          float [node, R4_BOUNDS, R4_WIDTH]    of 16 triangles, of 16 such nodes, ..
-//   corners         float [node, R4_CORNERS, R4_WIDTH]   of the triangles of the lowest nodes
+//   corners         float [node, R4_CORNERS, R4_WIDTH]   of the triangles of the lowest nodes, and normals
 //   order           uint [triangle]                      index into the mesh; R4_SURFACE: its opacity varies
 //   masks           uint [rows * words, pixel]           bit j of row i: sample (i, j) is hidden
 #ifndef SHARED_RASTER4D_H
@@ -35,13 +36,13 @@ SHARED_BEGIN
 #define R4_PIXEL 8      // uint bits
 #define R4_RECEIVER_PLANES 9
 
-#define R4_CORNERS 9    // x, y, z of corner 0, then of 1 and 2: [node, R4_CORNERS, R4_WIDTH] as bounds
+#define R4_CORNERS 12   // x, y, z of corner 0, then of 1 and 2, then of the plane's normal: as bounds
 
 typedef struct {
     Affine gridHigh, gridLow;  ///< grid <- re-based world: sums of two floats
     Affine lightFromWorld;
     float4 corner;        ///< light sample (0, 0), re-based world
-    float4 stepX, stepY;  ///< from column to column and row to row, metres
+    float4 stepX, stepY, stepZ;  ///< world, of one unit of the grid along each axis
     float4 keyCentre;     ///< of slopes x, y and z that sorting spreads about
     float4 keyScale;
     float halfWidth, halfHeight;  ///< of the light, metres
@@ -56,9 +57,23 @@ typedef struct {
     int planeStride;      ///< pixels between planes of visibility and masks
     int receiverStride;   ///< floats between planes of receivers
     int tileGroups;       ///< groups of receivers that a work-item takes
-    int unused[3];
+    int rowAtOnce;        ///< 0: bits one at a time
+    float slack;          ///< cells that samples may lie off their cells' centres: 0 or 0.5
+    int unused;
 } Raster4dParams;
-SHARED_STRUCT(Raster4dParams, 304)
+SHARED_STRUCT(Raster4dParams, 320)
+
+/// The paper's grid, a band of its rows.
+typedef struct {
+    int size;                ///< pixels on a side
+    int firstRow, rowCount;  ///< of the band
+    int onePixel;            ///< 1: a receiver is assigned to one pixel
+    int reject;              ///< 1: pairs without full coverage are left out before their rows
+    int fill;                ///< 0: count, 1: write
+    uint capacity;           ///< entries of a list
+    int unused;
+} Raster4dGridParams;
+SHARED_STRUCT(Raster4dGridParams, 32)
 
 SHARED_END
 #endif

@@ -52,6 +52,14 @@ inline uint gridKey(const Raster4dParams* p, float3 q) {
     return spreadKey(x) | spreadKey(y) << 1 | spreadKey(d) << 2;
 }
 
+/// z times the largest and the negated least slope of a point in x, then in y, over all light samples.
+inline void slopeNumerators(const Raster4dParams* p, float3 v, float* numerators) {
+    numerators[0] = v.x + p->slack;
+    numerators[1] = -(v.x - ((float)(p->columns - 1) + p->slack));
+    numerators[2] = v.y + p->slack;
+    numerators[3] = -(v.y - ((float)(p->rows - 1) + p->slack));
+}
+
 /// One work-item per pixel: its state, and a key for those that are tested.
 kernel void raster4d_receivers(const Raster4dParams params, const ReceiverParams image,
                                global const float* restrict planes, global uint* restrict state,
@@ -85,10 +93,9 @@ kernel void raster4d_gather(const Raster4dParams params, const ReceiverParams im
     receivers[(R4_Q + 0) * stride + i] = q.x;
     receivers[(R4_Q + 1) * stride + i] = q.y;
     receivers[(R4_Q + 2) * stride + i] = q.z;
-    receivers[(R4_BOUND + 0) * stride + i] = q.x / q.z;
-    receivers[(R4_BOUND + 1) * stride + i] = -((q.x - (float)(params.columns - 1)) / q.z);
-    receivers[(R4_BOUND + 2) * stride + i] = q.y / q.z;
-    receivers[(R4_BOUND + 3) * stride + i] = -((q.y - (float)(params.rows - 1)) / q.z);
+    float numerators[4];
+    slopeNumerators(&params, q, numerators);
+    for (int k = 0; k < 4; ++k) receivers[(R4_BOUND + k) * stride + i] = numerators[k] / q.z;
     receivers[(R4_BOUND + 4) * stride + i] = -q.z;
     receivers[R4_PIXEL * stride + i] = as_float((uint)pixel);
 }
@@ -119,7 +126,8 @@ kernel void raster4d_keys(const Raster4dParams params, global const float4* rest
 
 /// Widens a triangle's bounds by a corner; a corner in the light's plane reaches to infinity.
 inline void boundCorner(const Raster4dParams* p, float3 v, float* bounds) {
-    const float numerators[4] = {v.x, -(v.x - (float)(p->columns - 1)), v.y, -(v.y - (float)(p->rows - 1))};
+    float numerators[4];
+    slopeNumerators(p, v, numerators);
     for (int k = 0; k < 4; ++k) {
         const float slope = v.z > 0.0f ? numerators[k] / v.z : numerators[k] > 0.0f ? INFINITY : -INFINITY;
         bounds[k] = max(bounds[k], slope);
@@ -127,7 +135,7 @@ inline void boundCorner(const Raster4dParams* p, float3 v, float* bounds) {
     bounds[4] = max(bounds[4], -max(v.z, 0.0f));
 }
 
-/// Bounds of the part of a triangle in front of the light; the samples of a cell may lie half a cell off.
+/// Bounds of the part of a triangle in front of the light.
 inline void boundTriangle(const Raster4dParams* p, const float3* v, float* bounds) {
     for (int k = 0; k < R4_BOUNDS; ++k) bounds[k] = -INFINITY;
     for (int i = 0; i < 3; ++i) {
@@ -139,8 +147,24 @@ inline void boundTriangle(const Raster4dParams* p, const float3* v, float* bound
     }
 }
 
+/// a b - c d without cancellation.
+inline float productDifference(float a, float b, float c, float d) {
+    const float product = c * d;
+    return fma(a, b, -product) + fma(-c, d, product);
+}
+
+/// Normal of a triangle of the world, as it multiplies grid coordinates.
+inline float3 gridNormal(const Raster4dParams* p, float3 v0, float3 v1, float3 v2) {
+    const float3 a = v1 - v0, b = v2 - v0;
+    const float3 n = (float3)(productDifference(a.y, b.z, a.z, b.y), productDifference(a.z, b.x, a.x, b.z),
+                              productDifference(a.x, b.y, a.y, b.x));
+    return (float3)(dotVector(p->stepX, n.x, n.y, n.z), dotVector(p->stepY, n.x, n.y, n.z),
+                    dotVector(p->stepZ, n.x, n.y, n.z));
+}
+
 /// One work-item per slot of the lowest nodes: its triangle and its bounds; -infinity where there is none.
-kernel void raster4d_triangles(const Raster4dParams params, global const float4* restrict grid,
+kernel void raster4d_triangles(const Raster4dParams params, global const float* restrict positions,
+                               global const float4* restrict grid,
                                global const uint* restrict indices, global const uint* restrict triangleDraw,
                                global const Draw* restrict draws, global const uint* restrict keys,
                                global const uint* restrict sorted, global float* restrict bounds,
@@ -152,13 +176,19 @@ kernel void raster4d_triangles(const Raster4dParams params, global const float4*
     const uint triangle = slot < params.casterCount ? sorted[slot] : 0u;
     if (slot < params.casterCount && keys[slot] < R4_KEY_NONE - 1u) {
         float3 v[3];
+        global float* out = corners + slot / R4_WIDTH * (R4_CORNERS * R4_WIDTH) + slot % R4_WIDTH;
         for (int i = 0; i < 3; ++i) {
             v[i] = grid[indices[3 * triangle + i]].xyz;
-            global float* out = corners + (slot / R4_WIDTH * R4_CORNERS + 3 * i) * R4_WIDTH + slot % R4_WIDTH;
-            out[0] = v[i].x;
-            out[R4_WIDTH] = v[i].y;
-            out[2 * R4_WIDTH] = v[i].z;
+            out[(3 * i + 0) * R4_WIDTH] = v[i].x;
+            out[(3 * i + 1) * R4_WIDTH] = v[i].y;
+            out[(3 * i + 2) * R4_WIDTH] = v[i].z;
         }
+        const float3 n = gridNormal(&params, load3(positions, indices[3 * triangle]),
+                                    load3(positions, indices[3 * triangle + 1]),
+                                    load3(positions, indices[3 * triangle + 2]));
+        out[9 * R4_WIDTH] = n.x;
+        out[10 * R4_WIDTH] = n.y;
+        out[11 * R4_WIDTH] = n.z;
         boundTriangle(&params, v, box);
         const uint flags = draws[triangleDraw[triangle]].flags;
         order[slot] = triangle | (flags & (DRAW_MASK | DRAW_BLEND) ? R4_SURFACE : 0u);
@@ -181,3 +211,4 @@ kernel void raster4d_nodes(const Raster4dParams params, const int level, global 
 }
 
 #include "visibility/raster4d_bins.inl"
+#include "visibility/raster4d_grid.inl"

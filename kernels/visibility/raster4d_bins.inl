@@ -124,7 +124,7 @@ inline MaskReceiver maskReceiver(const Raster4dParams* p, global const float* re
     // Rounding of the corners' projections and of the edges' lines, generously; samples off their cells' centres
     const float beside = fabs(r.q.x) + fabs(r.q.y);
     const float rounding = 0.015625f + 1e-6f * beside * (1.0f + beside / r.q.z);
-    r.marginX = r.marginY = p->centred ? rounding : 0.5f + rounding;
+    r.marginX = r.marginY = rounding + p->slack;
     return r;
 }
 
@@ -183,31 +183,26 @@ inline void listPairs(const Raster4dParams* p, const MaskReceiver* r, const Tria
     for (int lane = 0; lane < LANES; ++lane) pairs->at[count + lane] = 0;  // something to load
 }
 
-/// Rasterises LANES pairs from `from` on.
-inline void rasterPairs(const Raster4dParams* p, const Raster4dInputs* in, const MaskReceiver* r,
-                        const TriangleList* list, const PairList* pairs, int from, uint* mask) {
-    const VI at = V_LOAD(pairs->at + from, 0);
-    MaskTriangles triangles;
-#pragma unroll
-    for (int k = 0; k < R4_CORNERS; ++k) triangles.at[k] = V_GATHER_(VF, list->corner[k], at);
-    VI firstRow, lastRow;
-    projectTriangles(p, r, &triangles, &firstRow, &lastRow);
-    const MaskLines lines = maskLines(r->q, &triangles);
+/// Adds what each of LANES triangles hides; `at`: their places in the list, of which `count` are taken.
+inline void rasterLanes(const Raster4dParams* p, const Raster4dInputs* in, const MaskLines* lines, VI firstRow,
+                        VI lastRow, const TriangleList* list, const int* at, int count, uint* mask) {
     MaskEnds ends;
-    maskEnds(&lines, &ends);
+    maskEnds(lines, &ends);
     uint bits[2][LANES];
     maskOneRow(p, &ends, V_TO_FLOAT(firstRow), bits);
-    int valid[LANES], before[LANES], firsts[LANES], lasts[LANES];
+    int valid[LANES], between[LANES], firsts[LANES], lasts[LANES];
+    V_STORE(lines->valid, valid, 0);
+    V_STORE(lines->between, between, 0);
     V_STORE(firstRow, firsts, 0);
     V_STORE(lastRow, lasts, 0);
-    V_STORE(lines.valid, valid, 0);
-    V_STORE(lines.before, before, 0);
-    for (int lane = 0; lane < LANES && from + lane < pairs->count; ++lane) {
+    for (int lane = 0; lane < LANES && lane < count; ++lane) {
         if (!valid[lane]) continue;
-        const int first = firsts[lane], last = lasts[lane], planes = before[lane] ? 3 : 4;
-        const uint triangle = in->order[list->index[pairs->at[from + lane]]];
+        const int first = firsts[lane], last = lasts[lane], planes = between[lane] ? 3 : 4;
+        const uint triangle = in->order[list->index[at[lane]]];
         if (!p->centred || (triangle & R4_SURFACE)) {
             pairSamples(p, &ends, lane, planes, first, last, triangle, &in->cells, &in->surfaces, mask);
+        } else if (!p->rowAtOnce) {
+            maskBitwise(p, &ends, lane, planes, first, last, mask);
         } else if (first == last && planes == 3) {
             mask[first] |= bits[0][lane];
             if (p->words > 1) mask[MASK_STRIDE + first] |= bits[1][lane];
@@ -224,7 +219,14 @@ inline void rasterList(const Raster4dParams* p, const Raster4dInputs* in, const 
     listPairs(p, &r, list, &pairs);
     for (int from = 0; from < pairs.count; from += LANES) {
         if (maskFull(p, mask)) return;
-        rasterPairs(p, in, &r, list, &pairs, from, mask);
+        const VI at = V_LOAD(pairs.at + from, 0);
+        MaskTriangles triangles;
+#pragma unroll
+        for (int k = 0; k < R4_CORNERS; ++k) triangles.at[k] = V_GATHER_(VF, list->corner[k], at);
+        VI first, last;
+        projectTriangles(p, &r, &triangles, &first, &last);
+        const MaskLines lines = maskLines(r.q, &triangles);
+        rasterLanes(p, in, &lines, first, last, list, pairs.at + from, pairs.count - from, mask);
     }
 }
 

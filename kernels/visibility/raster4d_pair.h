@@ -45,7 +45,7 @@ inline void pairSamples(const Raster4dParams* p, const MaskEnds* e, int lane, in
                         uint triangle, const MaskCells* cells, const MaskSurfaces* surfaces, uint* mask) {
     const int surface = (triangle & R4_SURFACE) != 0;
     for (int row = first; row <= last; ++row) {
-        const float2 columns = maskColumns(p, e, lane, planes, (float)row, p->centred ? 0.0f : 0.5f);
+        const float2 columns = maskColumns(p, e, lane, planes, (float)row, p->slack);
         if (!(columns.x <= columns.y)) continue;
         const int stop = (int)columns.y;
         for (int column = (int)ceil(columns.x); column <= stop; ++column) {

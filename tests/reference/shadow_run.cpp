@@ -20,7 +20,7 @@ void enqueue(const ShadowSetup& setup, const geometry::Mesh& mesh, const scene::
     const auto& gbuffer = pass.run(mesh, camera, run.bounds.centre());
     technique.prepare(mesh, run.bounds, run.bounds.centre());
     technique.run({mesh, gbuffer, run.light, run.bounds, run.bounds.centre(),
-                   setup.keepMaps ? &run.maps : nullptr},
+                   setup.keepMaps ? &run.maps : nullptr, setup.keepMasks ? &run.masks : nullptr},
                   visibility);
 }
 

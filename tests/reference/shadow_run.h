@@ -26,7 +26,7 @@ struct ShadowSetup {
     double fovDegrees = 40;
     int width = 160, height = 120;
     double seconds = 0;
-    bool keepMaps = false;
+    bool keepMaps = false, keepMasks = false;
 };
 
 /// What one run gave; planes are those of kernels/shared/gbuffer.h.
@@ -37,6 +37,7 @@ struct ShadowRun {
     std::vector<glm::vec3> casters;         ///< corners as the device posed them, three a triangle
     std::vector<std::uint32_t> state;
     visibility::DepthMaps maps;
+    visibility::OcclusionMasks masks;
     visibility::Counts counts;
     int retries = 0;
     scene::AreaLight light;
