@@ -19,48 +19,12 @@ namespace {
 constexpr size_t kTriangleCount = 240000;
 constexpr int kBays = 5;
 constexpr float kBay = 2.3F, kNave = 1.95F, kAisle = 3.9F;  // metres: length, half widths
-constexpr float kSpring = 3.6F;                            // where arches begin
+constexpr float kSpring = 3.6F;                             // where arches begin
 constexpr float kWestEnd = 6.2F, kEastEnd = kWestEnd - kBays * kBay - 0.6F;
 constexpr uint32_t kRibSides = 8;
 
 float bayAt(int pier) {
     return kWestEnd - kBay * static_cast<float>(pier);
-}
-
-// A block of stone with its edges cut off: the eight corners of a box become triangles.
-Mesh makeBlock(const vec3& centre, const vec3& half, float cut) {
-    Mesh mesh;
-    // Three vertices a corner: on its faces across x, y and z
-    for (uint32_t corner = 0; corner < 8; ++corner) {
-        const vec3 sign((corner & 1U) ? 1 : -1, (corner & 2U) ? 1 : -1, (corner & 4U) ? 1 : -1);
-        for (int axis = 0; axis < 3; ++axis) {
-            vec3 in = half - cut;
-            in[axis] = half[axis];
-            mesh.positions.push_back(centre + sign * in);
-        }
-        const bool isMirrored = sign.x * sign.y * sign.z < 0;
-        const uint32_t a = 3 * corner;
-        mesh.indices.insert(mesh.indices.end(),
-                            {a, isMirrored ? a + 2 : a + 1, isMirrored ? a + 1 : a + 2});
-    }
-    const auto addQuad = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
-        // Counter-clockwise from outside, whichever way the corners were named
-        const vec3 out = mesh.positions[a] + mesh.positions[c] - 2.0F * centre;
-        const vec3 normal = glm::cross(mesh.positions[b] - mesh.positions[a],
-                                       mesh.positions[c] - mesh.positions[a]);
-        if (glm::dot(out, normal) < 0) std::swap(b, d);
-        mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
-    };
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-        const uint32_t u = (axis + 1) % 3, v = (axis + 2) % 3, du = 1U << u, dv = 1U << v;
-        for (const uint32_t side : {0U, 1U << axis})
-            addQuad(3 * side + axis, 3 * (side + du) + axis, 3 * (side + du + dv) + axis,
-                    3 * (side + dv) + axis);
-        for (const uint32_t edge : {0U, du, dv, du + dv})
-            addQuad(3 * edge + u, 3 * (edge + (1U << axis)) + u, 3 * (edge + (1U << axis)) + v,
-                    3 * edge + v);
-    }
-    return mesh;
 }
 
 // A vertical wall seen as a plane: where its stones are (across, height) and where none is.
@@ -87,7 +51,8 @@ void addWall(Mesh& mesh, Jitter& jitter, const Wall& wall) {
             const vec3 half = 0.5F * (high - low - 0.008F) * glm::abs(wall.along) +
                               vec3(0, 0.5F * kCourse - 0.004F, 0) +
                               (0.22F + bulge) * glm::abs(through);
-            append(mesh, makeBlock(wall.origin + middle * wall.along + vec3(0, y, 0), half, 0.018F));
+            append(mesh,
+                   makeBlock(wall.origin + middle * wall.along + vec3(0, y, 0), half, 0.018F));
         }
     }
 }
@@ -277,7 +242,8 @@ void addRubble(Mesh& mesh, Jitter& jitter, size_t triangleCount) {
     for (size_t i = 0; i < triangleCount / 44; ++i) {
         const float size = 0.05F + 0.09F * std::abs(jitter.next());
         const float side = i % 2 == 0 ? 1.0F : -1.0F;
-        const float x = side * jitter.within(2.1F, 3.6F), z = jitter.within(kEastEnd + 0.4F, kWestEnd);
+        const float x = side * jitter.within(2.1F, 3.6F),
+                    z = jitter.within(kEastEnd + 0.4F, kWestEnd);
         const vec3 half = size * (vec3(1) + 0.4F * jitter.nextVector());
         const glm::quat turn = glm::normalize(glm::quat(1, 0.25F * jitter.nextVector()));
         append(mesh, makeBlock(vec3(0), half, 0.2F * size), turn, {x, 0.8F * half.y, z});

@@ -78,8 +78,8 @@ void addRail(Mesh& mesh, const std::vector<float>& stations, const glm::vec2& of
         const uint32_t ahead = (ring + kRailSides) % count;
         for (uint32_t side = 0; side < kRailSides; ++side) {
             const uint32_t next = (side + 1) % kRailSides;
-            for (const uint32_t corner : {ring + side, ahead + next, ring + next, ring + side,
-                                          ahead + side, ahead + next})
+            for (const uint32_t corner :
+                 {ring + side, ahead + next, ring + next, ring + side, ahead + side, ahead + next})
                 mesh.indices.push_back(base + corner);
         }
     }
@@ -167,7 +167,8 @@ void addCar(Mesh& tubs, Mesh& riders, const TrackFrame& f) {
                           {0, 1, 0}, 24));
     append(tubs, tub, turn, seat);
     for (const float side : {-1.0F, 1.0F}) {
-        Mesh rider = makeSweep({{{0, 0, 0}, 0.07F, 0.06F}, {{0, 0.18F, 0}, 0.085F, 0.06F},
+        Mesh rider = makeSweep({{{0, 0, 0}, 0.07F, 0.06F},
+                                {{0, 0.18F, 0}, 0.085F, 0.06F},
                                 {{0, 0.24F, 0}, 0.035F, 0.03F}},
                                {0, 0, 1}, 20);
         append(rider, makeSphere(0.062F, 20, 14), {1, 0, 0, 0}, {0, 0.3F, 0});

@@ -26,13 +26,12 @@ struct Knot {
 };
 
 // From the tip of the tail to the nape.
-constexpr Knot kSpine[] = {
-    {{-0.6F, 0.06F, 1.5F}, 0.018F},  {{-1.2F, 0.07F, 1.35F}, 0.04F},
-    {{-1.65F, 0.09F, 0.85F}, 0.07F}, {{-1.6F, 0.14F, 0.2F}, 0.11F},
-    {{-1.2F, 0.3F, -0.2F}, 0.17F},   {{-0.65F, 0.55F, -0.25F}, 0.26F},
-    {{0.0F, 0.66F, -0.1F}, 0.32F},   {{0.5F, 0.78F, 0.0F}, 0.27F},
-    {{0.85F, 1.05F, 0.02F}, 0.18F},  {{0.92F, 1.4F, 0.12F}, 0.14F},
-    {{0.85F, 1.68F, 0.3F}, 0.125F},  {{1.0F, 1.86F, 0.5F}, 0.115F}};
+constexpr Knot kSpine[] = {{{-0.6F, 0.06F, 1.5F}, 0.018F},  {{-1.2F, 0.07F, 1.35F}, 0.04F},
+                           {{-1.65F, 0.09F, 0.85F}, 0.07F}, {{-1.6F, 0.14F, 0.2F}, 0.11F},
+                           {{-1.2F, 0.3F, -0.2F}, 0.17F},   {{-0.65F, 0.55F, -0.25F}, 0.26F},
+                           {{0.0F, 0.66F, -0.1F}, 0.32F},   {{0.5F, 0.78F, 0.0F}, 0.27F},
+                           {{0.85F, 1.05F, 0.02F}, 0.18F},  {{0.92F, 1.4F, 0.12F}, 0.14F},
+                           {{0.85F, 1.68F, 0.3F}, 0.125F},  {{1.0F, 1.86F, 0.5F}, 0.115F}};
 constexpr int kSegments = 10;  // of a stretch between knots
 
 struct Link {
@@ -61,15 +60,13 @@ Knot splineAt(float t) {
 }
 
 void addChain(std::vector<Link>& links, const std::vector<Knot>& knots) {
-    for (size_t i = 0; i + 1 < knots.size(); ++i)
-        links.push_back(makeLink(knots[i], knots[i + 1]));
+    for (size_t i = 0; i + 1 < knots.size(); ++i) links.push_back(makeLink(knots[i], knots[i + 1]));
 }
 
 std::vector<Link> makeSpine() {
     std::vector<Knot> knots;
     constexpr int kCount = kSegments * (static_cast<int>(std::size(kSpine)) - 1);
-    for (int i = 0; i <= kCount; ++i)
-        knots.push_back(splineAt(static_cast<float>(i) / kSegments));
+    for (int i = 0; i <= kCount; ++i) knots.push_back(splineAt(static_cast<float>(i) / kSegments));
     std::vector<Link> links;
     addChain(links, knots);
     return links;
@@ -93,7 +90,8 @@ std::vector<Link> makeLegs() {
                          {foot, 0.075F}});
         for (const float claw : {-1.0F, 0.0F, 1.0F}) {
             const vec3 toe = foot + vec3(0.15F, -0.015F, 0.085F * claw);
-            addChain(links, {{foot, 0.05F}, {toe, 0.038F}, {toe + vec3(0.08F, -0.025F, 0), 0.016F}});
+            addChain(links,
+                     {{foot, 0.05F}, {toe, 0.038F}, {toe + vec3(0.08F, -0.025F, 0), 0.016F}});
         }
     }
     return links;
@@ -107,15 +105,22 @@ std::vector<Link> makeHead() {
     const vec3 side = glm::normalize(glm::cross(ahead, vec3(0, 1, 0)));
     const vec3 up = glm::cross(side, ahead);
     const auto at = [&](float x, float y, float z) { return nape + x * ahead + y * up + z * side; };
-    addChain(links, {{at(0, 0, 0), 0.12F}, {at(0.14F, 0.05F, 0), 0.135F},
-                     {at(0.38F, 0.03F, 0), 0.08F}, {at(0.52F, 0.03F, 0), 0.066F}});
-    addChain(links, {{at(0.08F, -0.04F, 0), 0.1F}, {at(0.3F, -0.14F, 0), 0.052F},
+    addChain(links, {{at(0, 0, 0), 0.12F},
+                     {at(0.14F, 0.05F, 0), 0.135F},
+                     {at(0.38F, 0.03F, 0), 0.08F},
+                     {at(0.52F, 0.03F, 0), 0.066F}});
+    addChain(links, {{at(0.08F, -0.04F, 0), 0.1F},
+                     {at(0.3F, -0.14F, 0), 0.052F},
                      {at(0.47F, -0.17F, 0), 0.036F}});
     for (const float s : {-1.0F, 1.0F}) {
-        addChain(links, {{at(0.02F, 0.1F, 0.07F * s), 0.045F}, {at(-0.16F, 0.22F, 0.13F * s), 0.034F},
-                         {at(-0.33F, 0.27F, 0.2F * s), 0.022F}, {at(-0.46F, 0.4F, 0.22F * s), 0.009F}});
-        addChain(links, {{at(0.1F, 0.14F, 0.08F * s), 0.035F}, {at(0.25F, 0.1F, 0.07F * s), 0.03F}});
-        addChain(links, {{at(0.5F, 0.07F, 0.04F * s), 0.03F}, {at(0.5F, 0.1F, 0.045F * s), 0.016F}});
+        addChain(links, {{at(0.02F, 0.1F, 0.07F * s), 0.045F},
+                         {at(-0.16F, 0.22F, 0.13F * s), 0.034F},
+                         {at(-0.33F, 0.27F, 0.2F * s), 0.022F},
+                         {at(-0.46F, 0.4F, 0.22F * s), 0.009F}});
+        addChain(links,
+                 {{at(0.1F, 0.14F, 0.08F * s), 0.035F}, {at(0.25F, 0.1F, 0.07F * s), 0.03F}});
+        addChain(links,
+                 {{at(0.5F, 0.07F, 0.04F * s), 0.03F}, {at(0.5F, 0.1F, 0.045F * s), 0.016F}});
         for (int spike = 0; spike < 3; ++spike) {
             const float turn = 0.25F - 0.55F * static_cast<float>(spike);
             addChain(links, {{at(0, 0.03F * turn, 0.1F * s), 0.03F},
@@ -157,11 +162,17 @@ std::vector<Wing> makeWings() {
     return {{{0.35F, 0.98F, 0.2F},
              {0.05F, 1.35F, 0.62F},
              {0.42F, 1.7F, 0.95F},
-             {{0.2F, 1.55F, 1.85F}, {-0.4F, 1.32F, 1.75F}, {-0.85F, 1.05F, 1.35F}, {-0.62F, 0.8F, 0.45F}}},
+             {{0.2F, 1.55F, 1.85F},
+              {-0.4F, 1.32F, 1.75F},
+              {-0.85F, 1.05F, 1.35F},
+              {-0.62F, 0.8F, 0.45F}}},
             {{0.3F, 0.98F, -0.22F},
              {-0.02F, 1.42F, -0.58F},
              {0.25F, 1.82F, -0.85F},
-             {{-0.15F, 1.9F, -1.7F}, {-0.7F, 1.6F, -1.65F}, {-1.1F, 1.25F, -1.3F}, {-0.75F, 0.85F, -0.4F}}}};
+             {{-0.15F, 1.9F, -1.7F},
+              {-0.7F, 1.6F, -1.65F},
+              {-1.1F, 1.25F, -1.3F},
+              {-0.75F, 0.85F, -0.4F}}}};
 }
 
 // Distance to a triangle (Quilez).
@@ -202,7 +213,8 @@ struct Dragon {
     static float blend(float d, const std::vector<Link>& links, const vec3& p, float k) {
         for (const Link& link : links) {
             if (glm::distance(p, link.middle) - link.reach > d + k) continue;
-            d = smoothMin(d, capsule(p, link.a.place, link.b.place, link.a.radius, link.b.radius), k);
+            d = smoothMin(d, capsule(p, link.a.place, link.b.place, link.a.radius, link.b.radius),
+                          k);
         }
         return d;
     }
@@ -217,9 +229,11 @@ struct Dragon {
                 const vec3 lift(0, 0.07F, 0);
                 // Between two fingers the edge is drawn in towards the wrist
                 const vec3 edge = glm::mix(0.5F * (before + tip), wing.wrist, 0.2F);
-                const vec3 u = 0.5F * (wing.wrist + before) + lift, v = 0.5F * (wing.wrist + tip) + lift;
+                const vec3 u = 0.5F * (wing.wrist + before) + lift,
+                           v = 0.5F * (wing.wrist + tip) + lift;
                 const vec3 root = i + 1 == wing.tips.size() ? wing.elbow : wing.wrist;
-                d = std::min({d, triangleDistance(p, root, u, edge), triangleDistance(p, u, before, edge),
+                d = std::min({d, triangleDistance(p, root, u, edge),
+                              triangleDistance(p, u, before, edge),
                               triangleDistance(p, root, edge, v), triangleDistance(p, edge, tip, v),
                               triangleDistance(p, root, wing.wrist, u)});
                 before = tip;
@@ -269,9 +283,9 @@ void makeDragon(GltfWriter& writer) {
     exhibit.finish({.diagonal = 58,
                     .lightDistance = 32,
                     .towardsLight = {-0.5F, 0.85F, -0.3F},
-                    .eye = {13, 23, 26},
-                    .target = {1.5F, 4, 1},
-                    .yfovDeg = 44,
+                    .eye = {9, 36, 24},
+                    .target = {0.8F, 3, 0.5F},
+                    .yfovDeg = 42,
                     .groundColour = {0.6F, 0.55F, 0.46F}});
 }
 

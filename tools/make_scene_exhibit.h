@@ -11,8 +11,8 @@ namespace tools {
 
 // What [4DR] section 4 tells of a scene (its unit is ours, the metre), and the view of it.
 struct ExhibitView {
-    float diagonal;         // of the bounds of all, the ground included
-    float lightDistance;    // from the centre of these bounds to the light's
+    float diagonal;          // of the bounds of all, the ground included
+    float lightDistance;     // from the centre of these bounds to the light's
     glm::vec3 towardsLight;  // any length
     glm::vec3 eye, target;
     float yfovDeg;

@@ -34,9 +34,13 @@ struct NamedScene {
 };
 
 inline constexpr NamedScene kScenes[] = {
-    {"builtin", makeBuiltin},   {"challenger", makeChallenger}, {"volund", makeVolund},
-    {"warriors", makeWarriors}, {"cliffside", makeCliffside},   {"mvss2", makeMvss2},
-    {"mvss6", makeMvss6},       {"tree", makeTree},             {"tower", makeTower}, {"dragon", makeDragon}, {"coaster", makeCoaster}, {"church", makeChurch},
+    {"builtin", makeBuiltin},     {"challenger", makeChallenger},
+    {"volund", makeVolund},       {"warriors", makeWarriors},
+    {"cliffside", makeCliffside}, {"mvss2", makeMvss2},
+    {"mvss6", makeMvss6},         {"tree", makeTree},
+    {"tower", makeTower},         {"toys", makeToys},
+    {"dragon", makeDragon},       {"coaster", makeCoaster},
+    {"church", makeChurch},
 };
 
 }  // namespace tools

@@ -13,7 +13,7 @@ using glm::vec3;
 namespace {
 
 constexpr float kHeight = 30, kFirstFloor = 5.6F, kSecondFloor = 11;  // metres
-constexpr float kPanel = 0.136F;  // of a girder's bracing, metres; gives the number of triangles
+constexpr float kPanel = 0.1255F;  // of a girder's bracing, metres; gives the number of triangles
 
 // From the axis to the outer corner of a leg.
 float outerAt(float y) {

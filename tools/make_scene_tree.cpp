@@ -81,7 +81,8 @@ void grow(Tree& tree, const Branch& branch, int level);
 // stand and are longest in the middle.
 void growChild(Tree& tree, const Branch& branch, int level, const std::vector<SweepRing>& rings,
                int i) {
-    const float share = (static_cast<float>(i) + 0.5F) / static_cast<float>(kGenerations[level].children);
+    const float share =
+        (static_cast<float>(i) + 0.5F) / static_cast<float>(kGenerations[level].children);
     const float low = level == 0 ? 0.3F : 0.22F;
     const float t = low + (1 - low) * share;
     const float place = t * static_cast<float>(rings.size() - 1);
@@ -111,8 +112,8 @@ void grow(Tree& tree, const Branch& branch, int level) {
 void addLeaf(Mesh& leaves, Jitter& jitter, const Twig& twig) {
     const vec3 stem = twig.from + (twig.to - twig.from) * jitter.within(0.1F, 1.05F);
     const vec3 aside = jitter.nextVector();
-    const vec3 rib = glm::normalize(glm::normalize(twig.to - twig.from) + 1.3F * aside +
-                                    vec3(0, -0.25F, 0));
+    const vec3 rib =
+        glm::normalize(glm::normalize(twig.to - twig.from) + 1.3F * aside + vec3(0, -0.25F, 0));
     const vec3 tilt = 0.5F * jitter.nextVector();
     const vec3 across = glm::normalize(glm::cross(rib, vec3(0, 1, 0) + tilt));
     const vec3 down = glm::cross(rib, across);
@@ -120,10 +121,11 @@ void addLeaf(Mesh& leaves, Jitter& jitter, const Twig& twig) {
     const vec3 foot = stem + 0.12F * rib;
     const vec3 fold = 0.07F * length * (down.y > 0 ? -down : down);
     const auto base = static_cast<uint32_t>(leaves.positions.size());
-    leaves.positions.insert(leaves.positions.end(),
-                            {foot, foot + length * (0.42F * rib + 0.27F * across) - fold,
-                             foot + length * (0.42F * rib - 0.27F * across) - fold,
-                             foot + 0.45F * length * rib + fold, foot + length * rib + 1.5F * fold});
+    leaves.positions.insert(
+        leaves.positions.end(),
+        {foot, foot + length * (0.42F * rib + 0.27F * across) - fold,
+         foot + length * (0.42F * rib - 0.27F * across) - fold, foot + 0.45F * length * rib + fold,
+         foot + length * rib + 1.5F * fold});
     for (const uint32_t corner : {0, 1, 3, 0, 3, 2, 1, 4, 3, 3, 4, 2})
         leaves.indices.push_back(base + corner);
 }
