@@ -134,6 +134,7 @@ Outfit makeOutfit(const Actor& actor, const Company& company) {
     if (actor.hasCape) outfit.sheets.push_back({"cape", makeCape(columns, 3 * columns / 2), false});
     outfit.clip = isWalked(actor.weapon) ? makeWalk(actor.startSeconds)
                                          : makeFight(fightOf(actor.weapon), actor.startSeconds);
+    outfit.clip = repeat(outfit.clip, company.loops);
     return outfit;
 }
 

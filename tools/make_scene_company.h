@@ -28,6 +28,7 @@ struct Company {
     float detail = 1;            // of what they carry
     uint32_t clothColumns = 40;  // of a cape; a flag is as fine
     size_t helmetTriangles = 8000;
+    int loops = 1;             // of their motion
     size_t triangleCount = 0;  // of all
 };
 

@@ -245,6 +245,13 @@ void GltfWriter::animateNodes(int animation, const std::vector<float>& timesSeco
                    "rotation");
 }
 
+void GltfWriter::animateTranslation(int animation, const std::vector<float>& timesSeconds,
+                                    const std::vector<glm::vec3>& translations, int node) {
+    const int times = addTimes(timesSeconds);
+    addChannel(animation, times, addAccessor(translations, kFloat, "VEC3", kNoTarget), node,
+               "translation");
+}
+
 size_t GltfWriter::write(const std::string& path) {
     while (binary_.size() % 4 != 0) binary_.push_back(0);
     document_["buffers"] = json::array({{{"byteLength", binary_.size()}}});

@@ -44,6 +44,9 @@ class GltfWriter {
     void animateNodes(int animation, const std::vector<float>& timesSeconds,
                       const std::vector<std::vector<glm::quat>>& rotations, int firstNode);
 
+    void animateTranslation(int animation, const std::vector<float>& timesSeconds,
+                            const std::vector<glm::vec3>& translations, int node);
+
     void addChild(int parent, int child);
 
     // Top-level members that need no bookkeeping: cameras, extensions.

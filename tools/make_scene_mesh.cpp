@@ -134,6 +134,42 @@ Mesh makeBox(const glm::vec3& centre, const glm::vec3& halfExtents) {
     return mesh;
 }
 
+Mesh makeBlock(const glm::vec3& centre, const glm::vec3& half, float cut) {
+    Mesh mesh;
+    // Three vertices a corner: on its faces across x, y and z
+    for (uint32_t corner = 0; corner < 8; ++corner) {
+        const glm::vec3 sign((corner & 1U) ? 1 : -1, (corner & 2U) ? 1 : -1,
+                             (corner & 4U) ? 1 : -1);
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 in = half - cut;
+            in[axis] = half[axis];
+            mesh.positions.push_back(centre + sign * in);
+        }
+        const bool isMirrored = sign.x * sign.y * sign.z < 0;
+        const uint32_t a = 3 * corner;
+        mesh.indices.insert(mesh.indices.end(),
+                            {a, isMirrored ? a + 2 : a + 1, isMirrored ? a + 1 : a + 2});
+    }
+    const auto addQuad = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+        // Counter-clockwise from outside, whichever way the corners were named
+        const glm::vec3 out = mesh.positions[a] + mesh.positions[c] - 2.0F * centre;
+        const glm::vec3 normal = glm::cross(mesh.positions[b] - mesh.positions[a],
+                                            mesh.positions[c] - mesh.positions[a]);
+        if (glm::dot(out, normal) < 0) std::swap(b, d);
+        mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+    };
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+        const uint32_t u = (axis + 1) % 3, v = (axis + 2) % 3, du = 1U << u, dv = 1U << v;
+        for (const uint32_t side : {0U, 1U << axis})
+            addQuad(3 * side + axis, 3 * (side + du) + axis, 3 * (side + du + dv) + axis,
+                    3 * (side + dv) + axis);
+        for (const uint32_t edge : {0U, du, dv, du + dv})
+            addQuad(3 * edge + u, 3 * (edge + (1U << axis)) + u, 3 * (edge + (1U << axis)) + v,
+                    3 * edge + v);
+    }
+    return mesh;
+}
+
 void append(Mesh& mesh, const Mesh& part, const glm::quat& rotation, const glm::vec3& translation) {
     const auto base = static_cast<uint32_t>(mesh.positions.size());
     for (const glm::vec3& position : part.positions) {

@@ -43,6 +43,9 @@ Mesh makeTorus(float majorRadius, float minorRadius, uint32_t majorSides, uint32
 Mesh makeSphere(float radius, uint32_t sides, uint32_t rings);
 Mesh makeBox(const glm::vec3& centre, const glm::vec3& halfExtents);
 
+// A box with its edges and corners cut off; 44 triangles.
+Mesh makeBlock(const glm::vec3& centre, const glm::vec3& half, float cut);
+
 // Adds `part`, rotated and then moved, to `mesh` (before normals).
 void append(Mesh& mesh, const Mesh& part, const glm::quat& rotation = glm::quat(1, 0, 0, 0),
             const glm::vec3& translation = glm::vec3(0));

@@ -130,4 +130,20 @@ Clip makeClip(float lengthSeconds, float shiftSeconds, const std::function<Pose(
     return clip;
 }
 
+Clip repeat(const Clip& clip, int loops) {
+    Clip longer = clip;
+    const auto extend = [](auto& keys, const auto& more) {
+        keys.insert(keys.end(), more.begin() + 1, more.end());
+    };
+    for (int loop = 1; loop < loops; ++loop) {
+        const float start = longer.timesSeconds.back();
+        for (size_t key = 1; key < clip.timesSeconds.size(); ++key)
+            longer.timesSeconds.push_back(start + clip.timesSeconds[key]);
+        extend(longer.hipsTranslations, clip.hipsTranslations);
+        for (int joint = 0; joint < kJointCount; ++joint)
+            extend(longer.rotations[joint], clip.rotations[joint]);
+    }
+    return longer;
+}
+
 }  // namespace tools

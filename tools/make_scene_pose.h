@@ -54,4 +54,7 @@ void gripBar(Pose& pose, Side side, const glm::vec3& grip, const glm::vec3& dire
 // exact.
 Clip makeClip(float lengthSeconds, float shiftSeconds, const std::function<Pose(float)>& poseAt);
 
+// The clip, `loops` times over.
+Clip repeat(const Clip& clip, int loops);
+
 }  // namespace tools

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "make_scene_random.h"
 #include "make_scene_walk.h"
 
 namespace tools {
@@ -24,19 +25,6 @@ constexpr float kCrateHalf = 0.21F;
 glm::quat yaw(float degrees) {
     return glm::angleAxis(glm::radians(degrees), vec3(0, 1, 0));
 }
-
-// Small irregularities, the same on every machine.
-class Jitter {
-  public:
-    // Uniform in -1 .. 1.
-    float next() {
-        state_ = state_ * 1664525U + 1013904223U;
-        return static_cast<float>(state_ >> 8U) / 8388608.0F - 1;
-    }
-
-  private:
-    uint32_t state_ = 2463534242U;
-};
 
 // A leaf on its stalk: rises from the origin, leans outward along +Z and droops at the tip.
 Mesh makeLeaf(float length, float halfWidth, float reach, float height) {

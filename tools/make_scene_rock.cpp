@@ -2,6 +2,7 @@
 #include "make_scene_rock.h"
 
 #include "make_scene_field.h"
+#include "make_scene_random.h"
 #include "make_scene_simplify.h"
 #include "make_scene_surface.h"
 
@@ -10,24 +11,6 @@ namespace tools {
 using glm::vec3;
 
 namespace {
-
-// Value noise in -1 .. 1 with a smooth slope.
-float noiseAt(const vec3& p) {
-    const vec3 cell = glm::floor(p);
-    const vec3 t = (p - cell) * (p - cell) * (3.0F - 2.0F * (p - cell));
-    const auto corner = [&](int dx, int dy, int dz) {
-        uint32_t hash = static_cast<uint32_t>(static_cast<int>(cell.x) + dx) * 73856093U ^
-                        static_cast<uint32_t>(static_cast<int>(cell.y) + dy) * 19349663U ^
-                        static_cast<uint32_t>(static_cast<int>(cell.z) + dz) * 83492791U;
-        hash = (hash ^ (hash >> 13U)) * 1274126177U;
-        return static_cast<float>((hash ^ (hash >> 16U)) & 0xFFFFU) / 32767.5F - 1;
-    };
-    const auto along = [&](int dy, int dz) {
-        return glm::mix(corner(0, dy, dz), corner(1, dy, dz), t.x);
-    };
-    return glm::mix(glm::mix(along(0, 0), along(1, 0), t.y),
-                    glm::mix(along(0, 1), along(1, 1), t.y), t.z);
-}
 
 float roughness(const vec3& p) {
     float sum = 0, height = 0.5F;

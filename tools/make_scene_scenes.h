@@ -19,15 +19,28 @@ void makeCliffside(GltfWriter& writer);
 void makeMvss2(GltfWriter& writer);
 void makeMvss6(GltfWriter& writer);
 
+// The scenes of [4DR] (figures 1 and 5, section 4), rebuilt: same numbers of triangles, diagonals
+// and distances of the light.
+void makeTree(GltfWriter& writer);
+void makeTower(GltfWriter& writer);
+void makeToys(GltfWriter& writer);
+void makeDragon(GltfWriter& writer);
+void makeCoaster(GltfWriter& writer);
+void makeChurch(GltfWriter& writer);
+
 struct NamedScene {
     std::string_view name;
     void (*make)(GltfWriter&);
 };
 
 inline constexpr NamedScene kScenes[] = {
-    {"builtin", makeBuiltin},   {"challenger", makeChallenger}, {"volund", makeVolund},
-    {"warriors", makeWarriors}, {"cliffside", makeCliffside},   {"mvss2", makeMvss2},
-    {"mvss6", makeMvss6},
+    {"builtin", makeBuiltin},     {"challenger", makeChallenger},
+    {"volund", makeVolund},       {"warriors", makeWarriors},
+    {"cliffside", makeCliffside}, {"mvss2", makeMvss2},
+    {"mvss6", makeMvss6},         {"tree", makeTree},
+    {"tower", makeTower},         {"toys", makeToys},
+    {"dragon", makeDragon},       {"coaster", makeCoaster},
+    {"church", makeChurch},
 };
 
 }  // namespace tools

@@ -64,14 +64,15 @@ int addSkeleton(GltfWriter& writer, int root) {
     return firstJoint;
 }
 
-void addCamera(GltfWriter& writer, const vec3& eye, const vec3& target, float yfovRad) {
+void addCamera(GltfWriter& writer, const vec3& eye, const vec3& target, float yfovRad, float aspect,
+               int zfar) {
     json camera = placedNode("camera", eye, lookFrom(eye, target));
     camera["camera"] = 0;
     writer.document()["cameras"] = json::array(
         {{{"name", "camera"},
           {"type", "perspective"},
           {"perspective",
-           {{"yfov", yfovRad}, {"aspectRatio", 1.7777778F}, {"znear", 0.1F}, {"zfar", 50}}}}});
+           {{"yfov", yfovRad}, {"aspectRatio", aspect}, {"znear", 0.1F}, {"zfar", zfar}}}}});
     addUnder(writer, -1, camera);
 }
 

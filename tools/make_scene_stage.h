@@ -36,7 +36,8 @@ struct StageLight {
     double fovDeg = 0, near = 0;  // of its views, degrees and metres; 0: fitted by the renderer
 };
 
-void addCamera(GltfWriter& writer, const glm::vec3& eye, const glm::vec3& target, float yfovRad);
+void addCamera(GltfWriter& writer, const glm::vec3& eye, const glm::vec3& target, float yfovRad,
+               float aspect = 1.7777778F, int zfar = 50);
 void addLight(GltfWriter& writer, const StageLight& light);
 
 }  // namespace tools
