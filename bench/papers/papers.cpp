@@ -23,6 +23,20 @@ const std::vector<Table>& tables() {
         {"vwss-fig13", "[VWSS] figure 13: buffered and unbuffered, serial, partial and full",
          vwssFigure13},
         {"mvss-table1", "[MVSS] table 1: 28 maps, two and six characters, 1920x1200", mvssTable1},
+#ifdef PENUMBRA_EMBREE
+        {"4dr-table1",
+         "[4DR] table 1: raster4d over Embree, six scenes, 512^2 to 1280^2 "
+         "(--size 512x512: that alone)",
+         fourdTable1},
+        {"4dr-table2", "[4DR] table 2: what each of the grid's switches brings", fourdTable2},
+        {"4dr-table3", "[4DR] table 3: milliseconds of the steps", fourdTable3},
+        {"4dr-table4", "[4DR] table 4: 8x8 to 64x64 light samples", fourdTable4},
+        {"4dr-table5", "[4DR] table 5: light diagonals 1 to 5", fourdTable5},
+        {"4dr-table6", "[4DR] table 6: grids of 256 to 32", fourdTable6},
+        {"4dr-table8", "[4DR] table 8: rays in equal time", fourdTable8},
+        {"4dr-exactness", "bits of raster4d that differ from Embree's, decided in double",
+         fourdExactness},
+#endif
     };
     return list;
 }

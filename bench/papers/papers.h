@@ -51,5 +51,15 @@ nlohmann::json vwssFigure9(const Request& request);
 nlohmann::json vwssFigure10(const Request& request);
 nlohmann::json vwssFigure13(const Request& request);
 nlohmann::json mvssTable1(const Request& request);
+#ifdef PENUMBRA_EMBREE
+nlohmann::json fourdTable1(const Request& request);
+nlohmann::json fourdTable2(const Request& request);
+nlohmann::json fourdTable3(const Request& request);
+nlohmann::json fourdTable4(const Request& request);
+nlohmann::json fourdTable5(const Request& request);
+nlohmann::json fourdTable6(const Request& request);
+nlohmann::json fourdTable8(const Request& request);
+nlohmann::json fourdExactness(const Request& request);
+#endif
 
 }  // namespace penumbra::papers

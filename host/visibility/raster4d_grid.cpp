@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "runtime/profiler.h"
+
 namespace penumbra::visibility {
 
 Raster4dGrid::Raster4dGrid(const runtime::Program& frame, const runtime::Program& raster4d,
@@ -54,6 +56,7 @@ void Raster4dGrid::run(const Inputs& inputs, const Params& params, const LightRe
                    extentBuffer_);
     const runtime::Range slots{static_cast<std::uint64_t>(params.nodeCount[0]) * R4_WIDTH};
     for (int row = 0; row < settings_.grid; row += rows) {
+        device_->profiler().beginStage("assignment");
         const GridParams grid{settings_.grid,
                               row,
                               std::min(rows, settings_.grid - row),
@@ -63,14 +66,14 @@ void Raster4dGrid::run(const Inputs& inputs, const Params& params, const LightRe
                               static_cast<U32>(capacity_),
                               0};
         assign(grid, receiverLists_, [&](const GridParams& g) {
-            assignReceivers_.launch({count}, {64}, params, g, receivers.planes(),
-                                    receivers.count(), extentBuffer_, receiverLists_.cursors,
-                                    receiverLists_.entries);
+            assignReceivers_.launch({count}, {64}, params, g, receivers.planes(), receivers.count(),
+                                    extentBuffer_, receiverLists_.cursors, receiverLists_.entries);
         });
         assign(grid, triangleLists_, [&](const GridParams& g) {
             assignTriangles_.launch(slots, {64}, params, g, triangles.bounds(0), extentBuffer_,
                                     triangleLists_.cursors, triangleLists_.entries);
         });
+        device_->profiler().beginStage("masks");
         masks_.launch({static_cast<std::uint64_t>(grid.size * grid.rowCount)}, {1}, params, grid,
                       receivers.planes(), triangles.bounds(0), triangles.corners(),
                       triangles.order(), receiverLists_.cursors, receiverLists_.entries,

@@ -142,10 +142,9 @@ TEST(Raster4dTest, AClosedBoxHidesAllOfItsInsideHoweverItLies) {
         const glm::dvec3 axis{unit(random), unit(random), unit(random)};
         const double size = std::exp(3 * unit(random));
         for (std::size_t node = 1; node < scene.nodes.size(); ++node)
-            scene.nodes[node].matrix =
-                glm::rotate(glm::scale(glm::dmat4(1), glm::dvec3(size)), 3 * unit(random),
-                            glm::normalize(axis)) *
-                scene.nodes[node].matrix;
+            scene.nodes[node].matrix = glm::rotate(glm::scale(glm::dmat4(1), glm::dvec3(size)),
+                                                   3 * unit(random), glm::normalize(axis)) *
+                                       scene.nodes[node].matrix;
         scene.nodes[0].matrix = glm::scale(glm::dmat4(1), glm::dvec3(size));
         auto setup = maskSetup("32x32");
         setup.light = fmt::format("rect:at=0,{},0;aim=0,0,0;up=0,0,1;size={}x{};radiance=10",
@@ -196,11 +195,12 @@ TEST(Raster4dTest, ScalingByPowersOfTwoChangesNoBit) {
 TEST(Raster4dTest, MovingTheSceneFarAwayChangesBitsAtGrazesOnly) {
     const auto at = [](const glm::dvec3& shift) {
         auto scene = tangle(5, 120);
-        for (auto& node : scene.nodes) node.matrix = glm::translate(glm::dmat4(1), shift) * node.matrix;
+        for (auto& node : scene.nodes)
+            node.matrix = glm::translate(glm::dmat4(1), shift) * node.matrix;
         auto setup = maskSetup("16x16");
-        setup.light = fmt::format("rect:at={},{},{};aim={},{},{};up=0,0,1;size=2x1.4;radiance=10",
-                                  0.4 + shift.x, 5 + shift.y, 0.3 + shift.z, shift.x, shift.y,
-                                  shift.z);
+        setup.light =
+            fmt::format("rect:at={},{},{};aim={},{},{};up=0,0,1;size=2x1.4;radiance=10",
+                        0.4 + shift.x, 5 + shift.y, 0.3 + shift.z, shift.x, shift.y, shift.z);
         setup.eye = glm::dvec3(0, 3, 4) + shift;
         setup.target = shift;
         return runShadows(scene, setup);
@@ -244,8 +244,7 @@ TEST_P(Raster4dGridTest, TheBitsAreThoseOfTheBins) {
 using Settings = std::vector<std::string>;
 INSTANTIATE_TEST_SUITE_P(Switches, Raster4dGridTest,
                          testing::Values(Settings{}, Settings{"grid", "8"}, Settings{"grid", "512"},
-                                         Settings{"onePixel", "false"},
-                                         Settings{"reject", "false"},
+                                         Settings{"onePixel", "false"}, Settings{"reject", "false"},
                                          Settings{"rowAtOnce", "false"},
                                          Settings{"onePixel", "false", "reject", "false",
                                                   "rowAtOnce", "false", "grid", "32"}));
