@@ -128,9 +128,9 @@ shared::Raster4dParams gridParams(const LightGrid& grid, const scene::AreaLight&
     }
     const glm::dvec3 stepX = grid.cellWidth * light.axisX, stepY = grid.cellHeight * light.axisY;
     p.corner = narrow(origin - shift[0] * stepX - shift[1] * stepY, 0);
+    p.cornerLow = remainder(origin - shift[0] * stepX - shift[1] * stepY, 0);
     p.stepX = narrow(stepX, 0);
     p.stepY = narrow(stepY, 0);
-    p.stepZ = narrow(unit * light.axisZ, 0);
     p.halfWidth = static_cast<float>(light.width / 2);
     p.halfHeight = static_cast<float>(light.height / 2);
     p.columns = grid.columns;

@@ -32,7 +32,7 @@ std::uint64_t LightTriangles::bytesFor(const Mesh& mesh) {
     const std::uint64_t casters = nodesOver(mesh.casterTriangleCount) * kWidth;
     return mesh.vertexCount * sizeof(shared::float4) +
            4 * std::uint64_t{mesh.triangleCount} * sizeof(U32) +  // keys, sorted twice
-           casters * (R4_CORNERS * sizeof(float) + sizeof(U32)) +
+           casters * ((R4_CORNERS + R4_WORLD) * sizeof(float) + sizeof(U32)) +
            casters * R4_BOUNDS * sizeof(float) * 17 / 16;
 }
 
@@ -54,6 +54,7 @@ void LightTriangles::plan(const Mesh& mesh, shared::Raster4dParams& p) {
     const auto slots =
         std::max<std::uint64_t>(static_cast<std::uint64_t>(p.nodeCount[0]), 1) * kWidth;
     corners_.grow(*device_, "corners in the light's grid", slots * R4_CORNERS);
+    world_.grow(*device_, "sorted triangles of the world", slots * R4_WORLD);
     order_.grow(*device_, "order of triangles", slots);
 }
 
@@ -68,8 +69,7 @@ void LightTriangles::run(const Mesh& mesh, shared::Raster4dParams& p) {
         return runtime::Range{static_cast<std::uint64_t>(p.nodeCount[level]) * kWidth};
     };
     trianglesKernel_.launch(slots(0), {64}, p, mesh.positions, grid_, mesh.indices,
-                            mesh.triangleDraw, mesh.draws, keyBuffer_, sorted_, bounds_[0],
-                            corners_, order_);
+                            mesh.triangleDraw, mesh.draws, keyBuffer_, sorted_, bounds_[0], corners_, world_, order_);
     for (int level = 1; level < R4_LEVELS; ++level)
         nodes_.launch(slots(level), {64}, p, level, bounds_[level - 1], bounds_[level]);
 }
@@ -204,7 +204,7 @@ void Raster4d::runBins(const Inputs& inputs, const shared::Raster4dParams& param
     bins_.launch({(pixels + tile - 1) / tile}, {1}, params, receivers_.image(),
                  inputs.gbuffer.planes, receivers_.planes(), receivers_.count(),
                  triangles_.bounds(0), triangles_.bounds(1), triangles_.bounds(2),
-                 triangles_.corners(), triangles_.order(), cells_.x, cells_.y, cells_.sample,
+                 triangles_.corners(), triangles_.world(), triangles_.order(), cells_.x, cells_.y, cells_.sample,
                  cells_.empty, mesh.indices, mesh.triangleDraw, mesh.draws, mesh.materials,
                  mesh.uvs, mesh.colours, mesh.texels, visibility.planes, masks_);
 }

@@ -49,6 +49,7 @@ class LightTriangles {
 
     const Buffer<float>& bounds(int level) const { return bounds_[level]; }
     const Buffer<float>& corners() const { return corners_; }
+    const Buffer<float>& world() const { return world_; }
     const Buffer<std::uint32_t>& order() const { return order_; }
 
   private:
@@ -62,12 +63,12 @@ class LightTriangles {
         keys_;
     runtime::Kernel<shared::Raster4dParams, Buffer<float>, Buffer<shared::float4>, Buffer<U32>,
                     Buffer<U32>, Buffer<shared::Draw>, Buffer<U32>, Buffer<U32>, Buffer<float>,
-                    Buffer<float>, Buffer<U32>>
+                    Buffer<float>, Buffer<float>, Buffer<U32>>
         trianglesKernel_;
     runtime::Kernel<shared::Raster4dParams, int, Buffer<float>, Buffer<float>> nodes_;
     Buffer<shared::float4> grid_;
     Buffer<U32> keyBuffer_, sorted_, order_;
-    Buffer<float> bounds_[R4_LEVELS], corners_;
+    Buffer<float> bounds_[R4_LEVELS], corners_, world_;
 };
 
 /// Pixels that are tested, in the grid of one light, sorted.
@@ -126,7 +127,7 @@ class Raster4d : public Technique {
     using U32 = std::uint32_t;
     runtime::Kernel<shared::Raster4dParams, shared::ReceiverParams, Buffer<float>, Buffer<float>,
                     Buffer<U32>, Buffer<float>, Buffer<float>, Buffer<float>, Buffer<float>,
-                    Buffer<U32>, Buffer<float>, Buffer<float>, Buffer<int>, Buffer<U32>,
+                    Buffer<float>, Buffer<U32>, Buffer<float>, Buffer<float>, Buffer<int>, Buffer<U32>,
                     Buffer<U32>, Buffer<U32>, Buffer<shared::Draw>, Buffer<shared::Material>,
                     Buffer<float>, Buffer<U32>, Buffer<U32>, Buffer<float>, Buffer<U32>>
         bins_;

@@ -5,10 +5,11 @@
 // light's plane in a line, E(j, i) = A j + B i + C, and sample (i, j) is hidden if it lies on the inner side
 // of all three. A row's hidden columns are therefore an interval whose ends are linear in the row:
 // j = -(B / A) i - C / A, the largest of the left ends to the least of the right ones.
-// Differs: an edge is measured from the corner that comes first in space, along end less start. Its plane is then
-// the same, but for the sign, in the two triangles that share it, so that no sample falls between them; and far
-// receivers lose no digits to a cross product of two long vectors. Samples on an edge are hidden. The
-// triangle's own plane ([4DR] P3) is looked at only where a corner does not lie between light and receiver.
+// Differs: lines come from the world's coordinates, as rays do: differences of floats lose nothing, while those of
+// grid coordinates lose digits close to contact. An edge is measured from the corner that comes first in space,
+// along end less start. Its plane is then the same, but for the sign, in the two triangles that share it, so that
+// no sample falls between them. Samples on an edge are hidden. The triangle's own plane ([4DR] P3) is looked at
+// only where a corner does not lie between light and receiver.
 #ifndef LIB_OCCLUSION_MASK_H
 #define LIB_OCCLUSION_MASK_H
 #include "lib/lanes.h"
@@ -19,17 +20,20 @@
 #define MASK_WORDS (2 * MASK_STRIDE)
 #define MASK_BEYOND 1e30f
 
-/// Corners of LANES triangles: x, y, z of corner 0, then of 1 and 2, then of the normal. The normal comes from the
-/// world: the grid's rounding would tilt thin triangles, and receivers lie close above their own.
+/// A receiver in the world, and the way from it to light sample (0, 0).
 typedef struct {
-    VF at[R4_CORNERS];
+    float3 origin, toCorner;
+} MaskOrigin;
+
+/// LANES triangles of the world: x, y, z of corner 0, then of 1 and 2, then of the normal.
+typedef struct {
+    VF at[R4_WORLD];
 } MaskTriangles;
 
 /// The lines that edges (0,1), (1,2), (2,0) and, last, the triangle's own plane draw on the light; inside is >= 0.
 typedef struct {
     VF a[4], b[4], c[4];
-    VI valid;   ///< 0: the receiver lies in the triangle's plane, and nothing is hidden
-    VI between;  ///< all corners lie between the planes of light and receiver, so a line that hits does so there
+    VI valid;  ///< 0: the receiver lies in the triangle's plane, and nothing is hidden
 } MaskLines;
 
 /// Lanes where corner v precedes corner w in space.
@@ -38,35 +42,37 @@ inline VI cornerPrecedes(const VF* v, const VF* w) {
     return V_MASK(v[0] < w[0]) | (V_MASK(v[0] == w[0]) & y);
 }
 
-inline MaskLines maskLines(float3 q, const MaskTriangles* t) {
+inline VF maskDot(VF x, VF y, VF z, float3 v) {
+    return fma(x, (VF)v.x, fma(y, (VF)v.y, z * v.z));
+}
+
+inline MaskLines maskLines(const Raster4dParams* p, const MaskOrigin* o, const MaskTriangles* t) {
     MaskLines lines;
+    // The normal n tells on which side of the triangle's plane the receiver lies
     const VF* v0 = t->at;
-    // The triangle's plane: n.(v0 - q) tells on which side the receiver lies
     const VF nx = t->at[9], ny = t->at[10], nz = t->at[11];
-    const VF above = fma(v0[0] - q.x, nx, fma(v0[1] - q.y, ny, (v0[2] - q.z) * nz));
+    const VF above =
+        fma(v0[0] - o->origin.x, nx, fma(v0[1] - o->origin.y, ny, (v0[2] - o->origin.z) * nz));
     const VF side = V_SELECT((VF)-1.0f, (VF)1.0f, V_MASK(above > 0.0f));
     lines.valid = V_MASK(fabs(above) > 0.0f);
-    lines.between = V_MASK(max(v0[2], max(t->at[5], t->at[8])) < q.z) &
-                    V_MASK(min(v0[2], min(t->at[5], t->at[8])) > 0.0f);
 #pragma unroll
     for (int k = 0; k < 3; ++k) {
         const VF* v = t->at + 3 * k;
         const VF* w = t->at + (k == 2 ? 0 : 3 * k + 3);
         const VI swap = cornerPrecedes(w, v);
-        const VF baseX = V_SELECT(v[0], w[0], swap), baseY = V_SELECT(v[1], w[1], swap);
-        const VF baseZ = V_SELECT(v[2], w[2], swap);
-        const VF x = baseX - q.x, y = baseY - q.y, z = baseZ - q.z;
+        const VF x = V_SELECT(v[0], w[0], swap) - o->origin.x, y = V_SELECT(v[1], w[1], swap) - o->origin.y;
+        const VF z = V_SELECT(v[2], w[2], swap) - o->origin.z;
         const VF ex = w[0] - v[0], ey = w[1] - v[1], ez = w[2] - v[2];
         // No fma here: the products must cancel alike in both triangles of an edge
-        lines.a[k] = (y * ez - z * ey) * side;
-        lines.b[k] = (z * ex - x * ez) * side;
-        const VF n = (x * ey - y * ex) * side;
-        lines.c[k] = -fma(lines.a[k], baseX, fma(lines.b[k], baseY, n * baseZ));
+        const VF px = (y * ez - z * ey) * side, py = (z * ex - x * ez) * side, pz = (x * ey - y * ex) * side;
+        lines.a[k] = maskDot(px, py, pz, p->stepX.xyz);
+        lines.b[k] = maskDot(px, py, pz, p->stepY.xyz);
+        lines.c[k] = maskDot(px, py, pz, o->toCorner);
     }
-    // Hidden samples lie beyond the plane, where the receiver does not
-    lines.a[3] = nx * side;
-    lines.b[3] = ny * side;
-    lines.c[3] = -fma(nx, v0[0], fma(ny, v0[1], nz * v0[2])) * side;
+    // Hidden samples lie beyond the plane, where the receiver does not: n.(sample - origin) > n.(corner 0 - origin)
+    lines.a[3] = maskDot(nx, ny, nz, p->stepX.xyz) * side;
+    lines.b[3] = maskDot(nx, ny, nz, p->stepY.xyz) * side;
+    lines.c[3] = (maskDot(nx, ny, nz, o->toCorner) - above) * side;
     return lines;
 }
 

@@ -11,10 +11,12 @@
 //   triangle  the largest of those of its corners
 // and the pair counts where none of the receiver's is above the triangle's. Boxes of receivers keep the least,
 // boxes of triangles the largest, so that culling a box never loses a pair, to the bit.
+// Slopes of triangles are widened by what rounding may take from those of their corners.
 //
 //   receivers       float [R4_RECEIVER_PLANES, stride]  sorted; see below
 //   bounds          float [node, R4_BOUNDS, R4_WIDTH]    of 16 triangles, of 16 such nodes, ..
-//   corners         float [node, R4_CORNERS, R4_WIDTH]   of the triangles of the lowest nodes, and normals
+//   corners         float [node, R4_CORNERS, R4_WIDTH]   of the triangles of the lowest nodes, grid
+//   world           float [node, R4_WORLD, R4_WIDTH]     the same and the normal, re-based world
 //   order           uint [triangle]                      index into the mesh; R4_SURFACE: its opacity varies
 //   masks           uint [rows * words, pixel]           bit j of row i: sample (i, j) is hidden
 #ifndef SHARED_RASTER4D_H
@@ -34,15 +36,17 @@ SHARED_BEGIN
 #define R4_Q 0          // 3: grid
 #define R4_BOUND 3      // 5: what is compared with bounds
 #define R4_PIXEL 8      // uint bits
-#define R4_RECEIVER_PLANES 9
+#define R4_ORIGIN 9     // 3: re-based world
+#define R4_RECEIVER_PLANES 12
 
-#define R4_CORNERS 12   // x, y, z of corner 0, then of 1 and 2, then of the plane's normal: as bounds
+#define R4_CORNERS 9    // x, y, z of corner 0, then of 1 and 2
+#define R4_WORLD 12     // the same, then the normal
 
 typedef struct {
     Affine gridHigh, gridLow;  ///< grid <- re-based world: sums of two floats
     Affine lightFromWorld;
-    float4 corner;        ///< light sample (0, 0), re-based world
-    float4 stepX, stepY, stepZ;  ///< world, of one unit of the grid along each axis
+    float4 corner, cornerLow;    ///< light sample (0, 0), re-based world: a sum of two floats
+    float4 stepX, stepY;         ///< from column to column and row to row, metres
     float4 keyCentre;     ///< of slopes x, y and z that sorting spreads about
     float4 keyScale;
     float halfWidth, halfHeight;  ///< of the light, metres

@@ -98,6 +98,9 @@ kernel void raster4d_gather(const Raster4dParams params, const ReceiverParams im
     for (int k = 0; k < 4; ++k) receivers[(R4_BOUND + k) * stride + i] = numerators[k] / q.z;
     receivers[(R4_BOUND + 4) * stride + i] = -q.z;
     receivers[R4_PIXEL * stride + i] = as_float((uint)pixel);
+    receivers[(R4_ORIGIN + 0) * stride + i] = r.origin.x;
+    receivers[(R4_ORIGIN + 1) * stride + i] = r.origin.y;
+    receivers[(R4_ORIGIN + 2) * stride + i] = r.origin.z;
 }
 
 /// One work-item per vertex: [vertex, 4] in the light's grid.
@@ -130,7 +133,7 @@ inline void boundCorner(const Raster4dParams* p, float3 v, float* bounds) {
     slopeNumerators(p, v, numerators);
     for (int k = 0; k < 4; ++k) {
         const float slope = v.z > 0.0f ? numerators[k] / v.z : numerators[k] > 0.0f ? INFINITY : -INFINITY;
-        bounds[k] = max(bounds[k], slope);
+        bounds[k] = max(bounds[k], fabs(slope) < INFINITY ? slope + 5e-7f * fabs(slope) : slope);
     }
     bounds[4] = max(bounds[4], -max(v.z, 0.0f));
 }
@@ -153,13 +156,10 @@ inline float productDifference(float a, float b, float c, float d) {
     return fma(a, b, -product) + fma(-c, d, product);
 }
 
-/// Normal of a triangle of the world, as it multiplies grid coordinates.
-inline float3 gridNormal(const Raster4dParams* p, float3 v0, float3 v1, float3 v2) {
-    const float3 a = v1 - v0, b = v2 - v0;
-    const float3 n = (float3)(productDifference(a.y, b.z, a.z, b.y), productDifference(a.z, b.x, a.x, b.z),
-                              productDifference(a.x, b.y, a.y, b.x));
-    return (float3)(dotVector(p->stepX, n.x, n.y, n.z), dotVector(p->stepY, n.x, n.y, n.z),
-                    dotVector(p->stepZ, n.x, n.y, n.z));
+inline void storeVector(float3 v, global float* out) {
+    out[0] = v.x;
+    out[R4_WIDTH] = v.y;
+    out[2 * R4_WIDTH] = v.z;
 }
 
 /// One work-item per slot of the lowest nodes: its triangle and its bounds; -infinity where there is none.
@@ -168,7 +168,8 @@ kernel void raster4d_triangles(const Raster4dParams params, global const float* 
                                global const uint* restrict indices, global const uint* restrict triangleDraw,
                                global const Draw* restrict draws, global const uint* restrict keys,
                                global const uint* restrict sorted, global float* restrict bounds,
-                               global float* restrict corners, global uint* restrict order) {
+                               global float* restrict corners, global float* restrict world,
+                               global uint* restrict order) {
     const int slot = get_global_id(0);
     if (slot >= params.nodeCount[0] * R4_WIDTH) return;
     float box[R4_BOUNDS];
@@ -177,18 +178,18 @@ kernel void raster4d_triangles(const Raster4dParams params, global const float* 
     if (slot < params.casterCount && keys[slot] < R4_KEY_NONE - 1u) {
         float3 v[3];
         global float* out = corners + slot / R4_WIDTH * (R4_CORNERS * R4_WIDTH) + slot % R4_WIDTH;
+        global float* worldOut = world + slot / R4_WIDTH * (R4_WORLD * R4_WIDTH) + slot % R4_WIDTH;
+        float3 w[3];
         for (int i = 0; i < 3; ++i) {
             v[i] = grid[indices[3 * triangle + i]].xyz;
-            out[(3 * i + 0) * R4_WIDTH] = v[i].x;
-            out[(3 * i + 1) * R4_WIDTH] = v[i].y;
-            out[(3 * i + 2) * R4_WIDTH] = v[i].z;
+            w[i] = load3(positions, indices[3 * triangle + i]);
+            storeVector(v[i], out + 3 * i * R4_WIDTH);
+            storeVector(w[i], worldOut + 3 * i * R4_WIDTH);
         }
-        const float3 n = gridNormal(&params, load3(positions, indices[3 * triangle]),
-                                    load3(positions, indices[3 * triangle + 1]),
-                                    load3(positions, indices[3 * triangle + 2]));
-        out[9 * R4_WIDTH] = n.x;
-        out[10 * R4_WIDTH] = n.y;
-        out[11 * R4_WIDTH] = n.z;
+        const float3 a = w[1] - w[0], b = w[2] - w[0];
+        storeVector((float3)(productDifference(a.y, b.z, a.z, b.y), productDifference(a.z, b.x, a.x, b.z),
+                             productDifference(a.x, b.y, a.y, b.x)),
+                    worldOut + 9 * R4_WIDTH);
         boundTriangle(&params, v, box);
         const uint flags = draws[triangleDraw[triangle]].flags;
         order[slot] = triangle | (flags & (DRAW_MASK | DRAW_BLEND) ? R4_SURFACE : 0u);

@@ -82,7 +82,7 @@ inline void startMask(const Raster4dParams* p, float3 origin, float3 normal, glo
                       const MaskCells* cells, uint* mask) {
     for (int word = 0; word < p->words; ++word)
         for (int row = 0; row < p->rows; ++row) mask[word * MASK_STRIDE + row] = empty[word * p->rows + row];
-    const float3 toCorner = p->corner.xyz - origin;
+    const float3 toCorner = (p->corner.xyz - origin) + p->cornerLow.xyz;
     const float at = fma(toCorner.x, normal.x, fma(toCorner.y, normal.y, toCorner.z * normal.z));
     const float x = fma(p->stepX.x, normal.x, fma(p->stepX.y, normal.y, p->stepX.z * normal.z));
     const float y = fma(p->stepY.x, normal.x, fma(p->stepY.y, normal.y, p->stepY.z * normal.z));
@@ -103,16 +103,18 @@ inline int maskFull(const Raster4dParams* p, const uint* mask) {
 
 typedef struct {
     global const float* receivers;
+    global const float* world;
     global const uint* order;
     MaskCells cells;
     MaskSurfaces surfaces;
 } Raster4dInputs;
 
-/// A receiver and by how much cells its projections of corners may be off.
+/// A receiver, and by how many cells its projections of corners may be off.
 typedef struct {
     float3 q;
+    MaskOrigin world;
     float key[R4_BOUNDS];
-    float marginX, marginY;
+    float margin, marginReach;  ///< the latter times how much farther than the corner the light is
 } MaskReceiver;
 
 inline MaskReceiver maskReceiver(const Raster4dParams* p, global const float* restrict receivers, int i) {
@@ -120,44 +122,58 @@ inline MaskReceiver maskReceiver(const Raster4dParams* p, global const float* re
     MaskReceiver r;
     r.q = (float3)(receivers[R4_Q * stride + i], receivers[(R4_Q + 1) * stride + i],
                    receivers[(R4_Q + 2) * stride + i]);
+    r.world.origin = (float3)(receivers[R4_ORIGIN * stride + i], receivers[(R4_ORIGIN + 1) * stride + i],
+                              receivers[(R4_ORIGIN + 2) * stride + i]);
+    r.world.toCorner = (p->corner.xyz - r.world.origin) + p->cornerLow.xyz;
     for (int k = 0; k < R4_BOUNDS; ++k) r.key[k] = receivers[(R4_BOUND + k) * stride + i];
-    // Rounding of the corners' projections and of the edges' lines, generously; samples off their cells' centres
+    // Rounding of edges' lines and of grid coordinates, generously; samples off their cells' centres
     const float beside = fabs(r.q.x) + fabs(r.q.y);
-    const float rounding = 0.015625f + 1e-6f * beside * (1.0f + beside / r.q.z);
-    r.marginX = r.marginY = rounding + p->slack;
+    r.margin = 0.015625f + p->slack + 1e-6f * beside * (1.0f + beside / r.q.z);
+    r.marginReach = 3e-7f * (beside + r.q.z);
     return r;
 }
 
 /// Pairs that are to be rasterised.
 typedef struct {
-    int at[GROUP_LIST + 16];  ///< in the list of triangles
+    uint code[GROUP_LIST + 16];  ///< place in the list of triangles, rows and planes: see PAIR_*
     int count;
 } PairList;
 
-/// Rows that triangles reach, between the projections of their corners; a triangle with a corner beyond the
-/// receiver may reach all. Returns the lanes whose projection may hold a sample.
-inline VI projectTriangles(const Raster4dParams* p, const MaskReceiver* r, const MaskTriangles* t, VI* first,
-                           VI* last) {
+#define PAIR_AT(code) ((int)((code) & 511u))
+#define PAIR_FIRST(code) ((int)((code) >> 9 & 63u))
+#define PAIR_LAST(code) ((int)((code) >> 15 & 63u))
+#define PAIR_PLANES(code) (3 + (int)((code) >> 21 & 1u))
+
+/// Triangles of the list from `at` on whose projections may hold a sample, and their pairs' codes. A triangle with a
+/// corner that is not between light and receiver may reach all rows, and its own plane matters.
+inline VI projectTriangles(const Raster4dParams* p, const MaskReceiver* r, const TriangleList* list, int at, VU* code) {
     VF lowX = (VF)INFINITY, lowY = (VF)INFINITY, highX = -(VF)INFINITY, highY = -(VF)INFINITY;
+    VF nearest = (VF)INFINITY, farthest = -(VF)INFINITY, most = (VF)0.0f;
 #pragma unroll
     for (int k = 0; k < 3; ++k) {
-        const VF reach = r->q.z / (r->q.z - t->at[3 * k + 2]);
-        const VF x = fma(t->at[3 * k] - r->q.x, reach, (VF)r->q.x);
-        const VF y = fma(t->at[3 * k + 1] - r->q.y, reach, (VF)r->q.y);
+        const VF z = V_LOAD(list->corner[3 * k + 2] + at, 0);
+        const VF reach = r->q.z / (r->q.z - z);
+        const VF x = fma(V_LOAD(list->corner[3 * k] + at, 0) - r->q.x, reach, (VF)r->q.x);
+        const VF y = fma(V_LOAD(list->corner[3 * k + 1] + at, 0) - r->q.y, reach, (VF)r->q.y);
         lowX = min(lowX, x);
         lowY = min(lowY, y);
         highX = max(highX, x);
         highY = max(highY, y);
+        nearest = min(nearest, z);
+        farthest = max(farthest, z);
+        most = max(most, reach);
     }
-    const VI before = V_MASK(max(t->at[2], max(t->at[5], t->at[8])) < r->q.z);
+    const VI before = V_MASK(farthest < r->q.z);
     const VF columns = (VF)(float)(p->columns - 1), rows = (VF)(float)(p->rows - 1), none = (VF)0.0f;
-    const VF left = clamp(lowX - r->marginX, none, (VF)(float)R4_ROWS), right = min(highX + r->marginX, columns);
-    const VF top = clamp(lowY - r->marginY, none, (VF)(float)R4_ROWS), bottom = min(highY + r->marginY, rows);
+    const VF margin = fma(most, (VF)r->marginReach, (VF)r->margin), beyond = (VF)(float)R4_ROWS;
+    const VF left = clamp(lowX - margin, none, beyond), right = min(highX + margin, columns);
+    const VF top = clamp(lowY - margin, none, beyond), bottom = min(highY + margin, rows);
     const VI meets = V_MASK(left <= right) & V_MASK(top <= bottom) & before;
-    *first = maskCeil(V_SELECT(none, top, meets));
-    *last = V_TO_INT(V_SELECT(rows, bottom, meets));
+    const VI first = maskCeil(V_SELECT(none, top, meets)), last = V_TO_INT(V_SELECT(rows, bottom, meets));
+    const VI planes = (VI)1 & ~(before & V_MASK(nearest > 0.0f));
+    *code = V_AS_UINT((V_INDEX + at) | first << 9 | last << 15 | planes << 21);
     return ~before | (V_MASK(maskCeil(V_SELECT(none, left, meets)) <= V_TO_INT(V_SELECT(none, right, meets))) &
-                      V_MASK(*first <= *last) & meets);
+                      V_MASK(first <= last) & meets);
 }
 
 inline void listPairs(const Raster4dParams* p, const MaskReceiver* r, const TriangleList* list, PairList* pairs) {
@@ -165,40 +181,46 @@ inline void listPairs(const Raster4dParams* p, const MaskReceiver* r, const Tria
     for (int at = 0; at < list->count; at += LANES) {
         VI pass = PASSING(list->bound[0] + at, GROUP_LIST + 16, r->key);
         if (!V_ANY(pass)) continue;
-        MaskTriangles triangles;
-#pragma unroll
-        for (int k = 0; k < R4_CORNERS; ++k) triangles.at[k] = V_LOAD(list->corner[k] + at, 0);
-        VI first, last;
-        pass &= projectTriangles(p, r, &triangles, &first, &last);
+        VU code;
+        pass &= projectTriangles(p, r, list, at, &code);
         if (!V_ANY(pass)) continue;
         int hits[LANES];
+        uint codes[LANES];
         V_STORE(pass, hits, 0);
+        V_STORE(code, codes, 0);
 #pragma unroll
         for (int lane = 0; lane < LANES; ++lane) {
-            pairs->at[count] = at + lane;
+            pairs->code[count] = codes[lane];
             count += hits[lane] != 0;
         }
     }
     pairs->count = count;
-    for (int lane = 0; lane < LANES; ++lane) pairs->at[count + lane] = 0;  // something to load
+    for (int lane = 0; lane < LANES; ++lane) pairs->code[count + lane] = 0u;  // something to load
 }
 
-/// Adds what each of LANES triangles hides; `at`: their places in the list, of which `count` are taken.
-inline void rasterLanes(const Raster4dParams* p, const Raster4dInputs* in, const MaskLines* lines, VI firstRow,
-                        VI lastRow, const TriangleList* list, const int* at, int count, uint* mask) {
+/// Adds what each of LANES pairs hides.
+inline void rasterLanes(const Raster4dParams* p, const Raster4dInputs* in, const MaskReceiver* r,
+                        const TriangleList* list, const uint* codes, int count, uint* mask) {
+    int offset[LANES];
+    for (int lane = 0; lane < LANES; ++lane) {
+        const uint slot = list->index[lane < count ? PAIR_AT(codes[lane]) : PAIR_AT(codes[0])];
+        offset[lane] = (int)(slot / R4_WIDTH * (R4_WORLD * R4_WIDTH) + slot % R4_WIDTH);
+    }
+    const VI offsets = V_LOAD(offset, 0);
+    MaskTriangles triangles;
+#pragma unroll
+    for (int k = 0; k < R4_WORLD; ++k) triangles.at[k] = V_GATHER_(VF, in->world + k * R4_WIDTH, offsets);
+    const MaskLines lines = maskLines(p, &r->world, &triangles);
     MaskEnds ends;
-    maskEnds(lines, &ends);
+    maskEnds(&lines, &ends);
     uint bits[2][LANES];
-    maskOneRow(p, &ends, V_TO_FLOAT(firstRow), bits);
-    int valid[LANES], between[LANES], firsts[LANES], lasts[LANES];
-    V_STORE(lines->valid, valid, 0);
-    V_STORE(lines->between, between, 0);
-    V_STORE(firstRow, firsts, 0);
-    V_STORE(lastRow, lasts, 0);
+    maskOneRow(p, &ends, V_TO_FLOAT(V_AS_INT(V_LOAD(codes, 0) >> 9 & 63u)), bits);
+    int valid[LANES];
+    V_STORE(lines.valid, valid, 0);
     for (int lane = 0; lane < LANES && lane < count; ++lane) {
         if (!valid[lane]) continue;
-        const int first = firsts[lane], last = lasts[lane], planes = between[lane] ? 3 : 4;
-        const uint triangle = in->order[list->index[at[lane]]];
+        const int first = PAIR_FIRST(codes[lane]), last = PAIR_LAST(codes[lane]), planes = PAIR_PLANES(codes[lane]);
+        const uint triangle = in->order[list->index[PAIR_AT(codes[lane])]];
         if (!p->centred || (triangle & R4_SURFACE)) {
             pairSamples(p, &ends, lane, planes, first, last, triangle, &in->cells, &in->surfaces, mask);
         } else if (!p->rowAtOnce) {
@@ -219,14 +241,7 @@ inline void rasterList(const Raster4dParams* p, const Raster4dInputs* in, const 
     listPairs(p, &r, list, &pairs);
     for (int from = 0; from < pairs.count; from += LANES) {
         if (maskFull(p, mask)) return;
-        const VI at = V_LOAD(pairs.at + from, 0);
-        MaskTriangles triangles;
-#pragma unroll
-        for (int k = 0; k < R4_CORNERS; ++k) triangles.at[k] = V_GATHER_(VF, list->corner[k], at);
-        VI first, last;
-        projectTriangles(p, &r, &triangles, &first, &last);
-        const MaskLines lines = maskLines(r.q, &triangles);
-        rasterLanes(p, in, &lines, first, last, list, pairs.at + from, pairs.count - from, mask);
+        rasterLanes(p, in, &r, list, pairs.code + from, pairs.count - from, mask);
     }
 }
 
@@ -249,14 +264,15 @@ kernel void raster4d_bins(const Raster4dParams params, const ReceiverParams imag
                           global const float* restrict planes, global const float* restrict receivers,
                           global const uint* restrict receiverCount, global const float* restrict bounds0,
                           global const float* restrict bounds1, global const float* restrict bounds2,
-                          global const float* restrict corners, global const uint* restrict order,
-                          global const float* restrict cellX, global const float* restrict cellY,
+                          global const float* restrict corners, global const float* restrict world,
+                          global const uint* restrict order, global const float* restrict cellX, global const float* restrict cellY,
                           global const int* restrict cellSample, global const uint* restrict empty,
                           RASTER4D_SURFACES, global float* restrict visibility, global uint* restrict masks) {
     const int stride = params.receiverStride, first = (int)get_global_id(0) * params.tileGroups * R4_WIDTH;
     const int count = min((int)*receiverCount - first, params.tileGroups * R4_WIDTH);
     if (count <= 0) return;
     const Raster4dInputs in = {receivers,
+                               world,
                                order,
                                {cellX, cellY, cellSample},
                                {indices, triangleDraw, draws, materials, uvs, colours, texels}};

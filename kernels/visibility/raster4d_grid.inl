@@ -107,23 +107,28 @@ inline void loadTriangles(global const float* restrict bounds, global const floa
 inline void rasterAll(const Raster4dParams* p, const Raster4dInputs* in, const TriangleList* list, int i, uint* mask) {
     const MaskReceiver r = maskReceiver(p, in->receivers, i);
     for (int from = 0; from < list->count; from += LANES) {
-        MaskTriangles triangles;
-        int at[LANES];
-        for (int k = 0; k < R4_CORNERS; ++k) triangles.at[k] = V_LOAD(list->corner[k] + from, 0);
-        for (int lane = 0; lane < LANES; ++lane) at[lane] = from + lane;
-        VI first, last;
-        const VI pass = projectTriangles(p, &r, &triangles, &first, &last) &
+        VU code;
+        const VI pass = projectTriangles(p, &r, list, from, &code) &
                         PASSING(list->bound[0] + from, GROUP_LIST + 16, r.key);
-        MaskLines lines = maskLines(r.q, &triangles);
-        const VI valid = lines.valid;
-        lines.valid = valid & pass;
-        rasterLanes(p, in, &lines, first, last, list, at, list->count - from, mask);
-        uint dropped[MASK_WORDS];
-        for (int w = 0; w < MASK_WORDS; ++w) dropped[w] = 0u;
-        lines.valid = valid & ~pass;
-        rasterLanes(p, in, &lines, (VI)0, (VI)(p->rows - 1), list, at, list->count - from, dropped);
-        // Nothing that depends on these bits may reach the mask, but they must be worked out
-        if (dropped[0] == 0xfffffffeu && dropped[1] == 0x12345678u) mask[MASK_STRIDE - 1] = dropped[1];
+        int hits[LANES];
+        uint codes[LANES], kept[LANES], dropped[LANES];
+        V_STORE(pass, hits, 0);
+        V_STORE(code, codes, 0);
+        int keptCount = 0, droppedCount = 0;
+        for (int lane = 0; lane < LANES; ++lane) kept[lane] = dropped[lane] = codes[0];
+        for (int lane = 0; lane < LANES && from + lane < list->count; ++lane) {
+            if (hits[lane])
+                kept[keptCount++] = codes[lane];
+            else
+                dropped[droppedCount++] = (codes[lane] & 511u) | (uint)(p->rows - 1) << 15;
+        }
+        if (keptCount) rasterLanes(p, in, &r, list, kept, keptCount, mask);
+        if (!droppedCount) continue;
+        uint unused[MASK_WORDS];
+        for (int w = 0; w < MASK_WORDS; ++w) unused[w] = 0u;
+        rasterLanes(p, in, &r, list, dropped, droppedCount, unused);
+        // Its bits must be worked out, but none may reach the mask: words beyond the last row are never read
+        mask[MASK_WORDS - 1] ^= unused[0];
     }
 }
 
@@ -132,7 +137,8 @@ inline void rasterAll(const Raster4dParams* p, const Raster4dInputs* in, const T
 /// receiverMasks [receiver, word, row]
 kernel void raster4d_grid_masks(const Raster4dParams params, const Raster4dGridParams grid,
                                 global const float* restrict receivers, global const float* restrict bounds,
-                                global const float* restrict corners, global const uint* restrict order,
+                                global const float* restrict corners, global const float* restrict world,
+                                global const uint* restrict order,
                                 global const uint* restrict receiverEnds, global const uint* restrict receiverList,
                                 global const uint* restrict triangleEnds, global const uint* restrict triangleList,
                                 global const float* restrict cellX, global const float* restrict cellY,
@@ -145,6 +151,7 @@ kernel void raster4d_grid_masks(const Raster4dParams params, const Raster4dGridP
     // A list that did not fit: the frame is repeated
     if (receiverEnd > grid.capacity || triangleEnd > grid.capacity) return;
     const Raster4dInputs in = {receivers,
+                               world,
                                order,
                                {cellX, cellY, cellSample},
                                {indices, triangleDraw, draws, materials, uvs, colours, texels}};
