@@ -117,6 +117,11 @@ void addMoulding(Mesh& mesh, const std::vector<vec3>& places, const vec3& side, 
             const vec3 lift(0, roll == 0 ? 0 : 0.5F * radius, 0);
             rings.push_back({place + roll * radius * side + lift, size, size});
         }
+        // Into the stone at both ends, each by another length: arches share no edges
+        const float into =
+            radius * (0.3F + 0.05F * static_cast<float>(mesh.positions.size() % 11U));
+        rings.front().centre -= into * glm::normalize(rings[1].centre - rings[0].centre);
+        rings.back().centre += into * glm::normalize(rings.back().centre - rings.end()[-2].centre);
         append(mesh, makeSweep(rings, side, kRibSides));
     }
 }

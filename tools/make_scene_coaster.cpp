@@ -86,7 +86,7 @@ void addRail(Mesh& mesh, const std::vector<float>& stations, const glm::vec2& of
 }
 
 void addBar(Mesh& mesh, const vec3& from, const vec3& to, float radius) {
-    append(mesh, makeBar(from, to, radius, 12));
+    addStrut(mesh, from, to, radius, 12);
 }
 
 // Sleepers, and on every third a walkway's railing to either side.
@@ -174,7 +174,8 @@ void addCar(Mesh& tubs, Mesh& riders, const TrackFrame& f) {
         append(rider, makeSphere(0.062F, 20, 14), {1, 0, 0, 0}, {0, 0.3F, 0});
         // Arms up
         for (const float arm : {-1.0F, 1.0F})
-            append(rider, makeBar({0.07F * arm, 0.18F, 0}, {0.1F * arm, 0.42F, -0.06F}, 0.02F, 10));
+            append(rider,
+                   makeBar({0.07F * arm, 0.18F, 0}, {0.085F * arm, 0.42F, -0.06F}, 0.02F, 10));
         append(riders, rider, turn, seat + turn * vec3(0.1F * side, 0.22F, 0.12F));
     }
 }

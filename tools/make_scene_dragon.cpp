@@ -220,7 +220,7 @@ struct Dragon {
     }
 
     float skinDistance(const vec3& p) const {
-        constexpr float kHalfThickness = 0.016F;
+        constexpr float kHalfThickness = 0.018F;
         float d = 1e3F;
         for (const Wing& wing : wings) {
             vec3 before = wing.tips.front();
@@ -282,10 +282,10 @@ void makeDragon(GltfWriter& writer) {
                 0.55F);
     exhibit.finish({.diagonal = 58,
                     .lightDistance = 32,
-                    .towardsLight = {-0.5F, 0.85F, -0.3F},
-                    .eye = {9, 36, 24},
-                    .target = {0.8F, 3, 0.5F},
-                    .yfovDeg = 42,
+                    .towardsLight = {-0.56F, 0.79F, -0.24F},
+                    .eye = {9, 38, 23},
+                    .target = {2, 1.5F, 1},
+                    .yfovDeg = 41,
                     .groundColour = {0.6F, 0.55F, 0.46F}});
 }
 

@@ -178,6 +178,14 @@ void append(Mesh& mesh, const Mesh& part, const glm::quat& rotation, const glm::
     for (const uint32_t index : part.indices) mesh.indices.push_back(base + index);
 }
 
+void addStrut(Mesh& mesh, const glm::vec3& from, const glm::vec3& to, float radius,
+              uint32_t sides) {
+    const float number = static_cast<float>(mesh.positions.size() % 8191U);
+    const float share = 0.618034F * number - std::floor(0.618034F * number);
+    const glm::vec3 reach = radius * (0.1F + 0.5F * share) * glm::normalize(to - from);
+    append(mesh, makeBar(from - reach, to + reach, radius, sides));
+}
+
 Mesh withNormals(const Mesh& mesh, float creaseAngleDeg) {
     const size_t triangleCount = mesh.triangleCount();
     const float creaseCosine = std::cos(glm::radians(creaseAngleDeg));

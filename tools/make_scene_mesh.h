@@ -46,6 +46,10 @@ Mesh makeBox(const glm::vec3& centre, const glm::vec3& halfExtents);
 // A box with its edges and corners cut off; 44 triangles.
 Mesh makeBlock(const glm::vec3& centre, const glm::vec3& half, float cut);
 
+// Adds a bar whose ends reach further than asked, each bar by another part of its radius: bars that
+// meet would share edges otherwise, and the mesh would not be closed.
+void addStrut(Mesh& mesh, const glm::vec3& from, const glm::vec3& to, float radius, uint32_t sides);
+
 // Adds `part`, rotated and then moved, to `mesh` (before normals).
 void append(Mesh& mesh, const Mesh& part, const glm::quat& rotation = glm::quat(1, 0, 0, 0),
             const glm::vec3& translation = glm::vec3(0));

@@ -26,7 +26,7 @@ float innerAt(float y) {
 }
 
 void addBar(Mesh& mesh, const vec3& from, const vec3& to, float radius) {
-    append(mesh, makeBar(from, to, radius, 4));
+    addStrut(mesh, from, to, radius, 4);
 }
 
 int panelsOf(const vec3& from, const vec3& to) {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr size_t kTriangleCount = 263000, kSoldierTriangles = 84000;
 constexpr float kSeconds = 2 * kFightSeconds;
-constexpr float kCarouselHeight = 7.4F;  // the highest of all toys
+constexpr float kCarouselHeight = 7.4F, kGymHeight = 11;  // the frame is the highest of all toys
 
 constexpr vec3 kRed(0.6F, 0.1F, 0.08F), kYellow(0.75F, 0.55F, 0.1F), kBlue(0.1F, 0.22F, 0.5F),
     kGreen(0.15F, 0.4F, 0.16F), kWhite(0.75F, 0.73F, 0.68F), kWood(0.5F, 0.33F, 0.18F);
@@ -48,7 +48,7 @@ class Toybox {
              float creaseDeg = 40) {
         const int material = writer_.addMaterial(name, colour, 0.5F);
         addProp(writer_, {{"name", name}}, withNormals(mesh, creaseDeg), material, parent);
-        exhibit_.count(mesh.triangleCount(), kCarouselHeight);
+        exhibit_.count(mesh.triangleCount(), kGymHeight);
     }
 
     // `at` gives the rotation for a share of the loop.
@@ -308,7 +308,7 @@ void addBlocks(Toybox& box) {
     put({-8.8F, 0.5F, 12.2F}, {0.9F, 0.5F, 0.5F}, -24, 3);
 }
 
-// A hoop that leans inward and rolls around the bear's feet.
+// A hoop that leans inward and rolls in a circle.
 void addHoop(Toybox& box) {
     constexpr float kCircle = 2.2F, kRadius = 0.95F;
     const int middle = box.addPlace("hoopCircle", {3.1F, 0, 1.2F});
@@ -321,6 +321,56 @@ void addHoop(Toybox& box) {
     box.rotate(place, [](float share) {
         return turn(16, {0, 0, 1}) * turn(-2 * 360 * share, {1, 0, 0});
     });
+}
+
+// What hangs on string `number`, below the origin.
+Mesh makePendant(int number, float length) {
+    Mesh mesh;
+    append(mesh, makeBar({0, 0, 0}, {0, -length, 0}, 0.04F, 10));
+    const vec3 middle(0, -length - 0.6F, 0);
+    if (number % 3 == 0) {
+        append(mesh, makeTorus(0.62F, 0.13F, 56, 16), kUpright, middle);
+        append(mesh, makeTorus(0.3F, 0.09F, 36, 12), kUpright, middle);
+        append(mesh, makeBar(middle + vec3(0, 0.6F, 0), middle + vec3(0, 0.3F, 0), 0.05F, 10));
+    } else if (number % 3 == 1) {
+        // A string of beads, the largest in the middle
+        for (int bead = -2; bead <= 2; ++bead) {
+            const auto place = static_cast<float>(bead);
+            append(mesh, makeSphere(0.42F - 0.08F * std::abs(place), 26, 16), yaw(0),
+                   middle + vec3(0, 0.62F * place, 0));
+        }
+    } else {
+        // A flower
+        append(mesh, makeSphere(0.3F, 26, 16), yaw(0), middle);
+        for (int leaf = 0; leaf < 6; ++leaf)
+            append(mesh, makeSphere(0.26F, 22, 14), yaw(0),
+                   middle + turn(60.0F * static_cast<float>(leaf), {0, 0, 1}) * vec3(0.5F, 0, 0));
+    }
+    return mesh;
+}
+
+// A frame across the floor from which pendants swing: their shadows are the softest.
+void addGym(Toybox& box) {
+    constexpr float kBar = kGymHeight - 0.25F, kHalf = 12.6F;
+    const vec3 middle(-1.6F, 0, -4.6F);
+    const int place = box.addPlace("gym", middle);
+    Mesh frame;
+    addStrut(frame, {-kHalf, kBar, 0}, {kHalf, kBar, 0}, 0.22F, 28);
+    for (const float side : {-1.0F, 1.0F})
+        for (const float foot : {-3.6F, 3.6F})
+            append(frame, makeBar({side * (kHalf - 0.3F), kBar, 0}, {side * kHalf, 0.14F, foot},
+                                  0.18F, 24));
+    box.add("frame", frame, kWood, place, 60);
+    for (int i = 0; i < 9; ++i) {
+        const float x = -10.4F + 2.6F * static_cast<float>(i);
+        const int pendant = box.addPlace("pendantPlace", {x, kBar, 0}, place);
+        box.add("pendant", makePendant(i, i % 2 == 0 ? 1.9F : 3.3F), paintOf(i), pendant, 60);
+        box.rotate(pendant, [i](float share) {
+            const float swing =
+                std::sin(glm::two_pi<float>() * (2 * share + 0.13F * static_cast<float>(i)));
+            return turn(11 * swing, {1, 0, 0.25F});
+        });
+    }
 }
 
 }  // namespace
@@ -336,6 +386,7 @@ void makeToys(GltfWriter& writer) {
     addBalls(box);
     addBlocks(box);
     addHoop(box);
+    addGym(box);
     const int bear = box.addPlace("bearPlace", {1.2F, 0, -5.6F});
     box.add("bearButtons", makeBearButtons(), {0.06F, 0.05F, 0.05F}, bear, 60);
     box.add("bear", makeBear(exhibit.trianglesLeft(kTriangleCount) / 2 * 2), {0.45F, 0.28F, 0.14F},

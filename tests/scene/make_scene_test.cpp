@@ -188,7 +188,7 @@ TEST_P(ExhibitSceneSlowTest, HasThePapersSizeDiagonalAndLight) {
                 0.02 * expected.lightDistance);
     EXPECT_DOUBLE_EQ(lights[0].width, lights[0].height);
     EXPECT_NEAR(std::hypot(lights[0].width, lights[0].height), 3, 1e-4);
-    EXPECT_GT(penumbraShare(scene), 0.1);
+    EXPECT_GT(penumbraShare(scene), 0.08);
 }
 
 INSTANTIATE_TEST_SUITE_P(Papers, ExhibitSceneSlowTest, testing::ValuesIn(kExhibitScenes),
