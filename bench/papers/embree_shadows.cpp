@@ -40,7 +40,7 @@ struct Packet16 {
 
 struct Job {
     const std::vector<MaskScene::Receiver>& receivers;
-    const std::vector<glm::vec3>& samples;
+    const std::vector<glm::dvec3>& samples;
     int columns, rows;
     std::vector<std::uint32_t>* hidden;
 };
@@ -56,7 +56,7 @@ void traceBlock(RTCScene scene, const Job& job, std::size_t index, int column, i
         const int x = column + lane % 4, y = row + lane / 4;
         const bool inside = x < job.columns && y < job.rows;
         const auto sample = static_cast<std::size_t>(inside ? y * job.columns + x : 0);
-        const glm::vec3 d = job.samples[sample] - r.origin;
+        const glm::vec3 d(job.samples[sample] - glm::dvec3(r.origin));
         const bool above = inside && glm::dot(d, r.normal) > 0;
         if (inside && !above && bits) bits[sample / 32] |= 1U << (sample % 32);
         valid[lane] = above ? -1 : 0;
@@ -145,7 +145,7 @@ int EmbreeShadows::threads() const {
 }
 
 double EmbreeShadows::trace(const std::vector<MaskScene::Receiver>& receivers,
-                            const std::vector<glm::vec3>& samples, int columns, int rows,
+                            const std::vector<glm::dvec3>& samples, int columns, int rows,
                             std::vector<std::uint32_t>* hidden) const {
     if (hidden) hidden->assign(receivers.size() * ((samples.size() + 31) / 32), 0);
     const Job job{receivers, samples, columns, rows, hidden};

@@ -18,7 +18,7 @@ class EmbreeShadows {
     /// Seconds of all shadow rays, in the faster of packets of 8 and of 16. `samples` [rows,
     /// columns]. hidden [receiver, words of 32 samples] is filled where not null.
     double trace(const std::vector<MaskScene::Receiver>& receivers,
-                 const std::vector<glm::vec3>& samples, int columns, int rows,
+                 const std::vector<glm::dvec3>& samples, int columns, int rows,
                  std::vector<std::uint32_t>* hidden = nullptr) const;
     int threads() const;
 

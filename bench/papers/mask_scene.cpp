@@ -114,8 +114,8 @@ std::vector<MaskScene::Receiver> MaskScene::receivers() const {
     return result;
 }
 
-std::vector<glm::vec3> MaskScene::samplePoints() const {
-    std::vector<glm::vec3> points;
+std::vector<glm::dvec3> MaskScene::samplePoints() const {
+    std::vector<glm::dvec3> points;
     for (const auto& s : light_.samples)
         points.emplace_back(light_.centre - bounds_.centre() + s.x * light_.axisX +
                             s.y * light_.axisY);

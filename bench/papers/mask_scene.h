@@ -40,7 +40,7 @@ class MaskScene {
         std::size_t pixel;
     };
     std::vector<Receiver> receivers() const;
-    std::vector<glm::vec3> samplePoints() const;
+    std::vector<glm::dvec3> samplePoints() const;
 
   private:
     runtime::Device* device_;

@@ -51,11 +51,12 @@ PosedScene& wallScene() {
 }
 
 TechniqueRun::TechniqueRun(PosedScene& posed, const std::string& technique,
-                           const SettingValues& settings, int samples)
+                           const SettingValues& settings, int samples, scene::Pattern pattern)
     : posed_(&posed), pass_(program("frame"), kWidth, kHeight) {
     const auto pose = scene::poseAt(posed.scene, scene::chooseAnimations(posed.scene, ""), 0.25);
     scene::SampleChoice choice;
     choice.count = samples;
+    choice.pattern = pattern;
     light_ = scene::lightsAt(posed.scene, pose, posed.bounds, choice).at(0);
     const auto camera = scene::cameraAt(posed.scene, pose, {}, posed.bounds, 16.0 / 9);
     do pass_.run(posed.mesh(), camera, posed.bounds.centre());

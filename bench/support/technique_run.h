@@ -16,9 +16,9 @@ PosedScene& wallScene();
 
 class TechniqueRun {
   public:
-    /// `samples` hammersley samples of the scene's light; repeats until no list is too short.
+    /// `samples` samples of the scene's light; repeats until no list is too short.
     TechniqueRun(PosedScene& posed, const std::string& technique, const SettingValues& settings,
-                 int samples);
+                 int samples, scene::Pattern pattern = scene::Pattern::hammersley);
     /// One run: milliseconds of the device by stage; counts of it.
     std::map<std::string, double> stages();
     const visibility::Counts& counts() const { return counts_; }

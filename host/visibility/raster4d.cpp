@@ -69,7 +69,8 @@ void LightTriangles::run(const Mesh& mesh, shared::Raster4dParams& p) {
         return runtime::Range{static_cast<std::uint64_t>(p.nodeCount[level]) * kWidth};
     };
     trianglesKernel_.launch(slots(0), {64}, p, mesh.positions, grid_, mesh.indices,
-                            mesh.triangleDraw, mesh.draws, keyBuffer_, sorted_, bounds_[0], corners_, world_, order_);
+                            mesh.triangleDraw, mesh.draws, keyBuffer_, sorted_, bounds_[0],
+                            corners_, world_, order_);
     for (int level = 1; level < R4_LEVELS; ++level)
         nodes_.launch(slots(level), {64}, p, level, bounds_[level - 1], bounds_[level]);
 }
@@ -204,9 +205,9 @@ void Raster4d::runBins(const Inputs& inputs, const shared::Raster4dParams& param
     bins_.launch({(pixels + tile - 1) / tile}, {1}, params, receivers_.image(),
                  inputs.gbuffer.planes, receivers_.planes(), receivers_.count(),
                  triangles_.bounds(0), triangles_.bounds(1), triangles_.bounds(2),
-                 triangles_.corners(), triangles_.world(), triangles_.order(), cells_.x, cells_.y, cells_.sample,
-                 cells_.empty, mesh.indices, mesh.triangleDraw, mesh.draws, mesh.materials,
-                 mesh.uvs, mesh.colours, mesh.texels, visibility.planes, masks_);
+                 triangles_.corners(), triangles_.world(), triangles_.order(), cells_.x, cells_.y,
+                 cells_.sample, cells_.empty, mesh.indices, mesh.triangleDraw, mesh.draws,
+                 mesh.materials, mesh.uvs, mesh.colours, mesh.texels, visibility.planes, masks_);
 }
 
 }  // namespace penumbra::visibility

@@ -127,9 +127,10 @@ class Raster4d : public Technique {
     using U32 = std::uint32_t;
     runtime::Kernel<shared::Raster4dParams, shared::ReceiverParams, Buffer<float>, Buffer<float>,
                     Buffer<U32>, Buffer<float>, Buffer<float>, Buffer<float>, Buffer<float>,
-                    Buffer<float>, Buffer<U32>, Buffer<float>, Buffer<float>, Buffer<int>, Buffer<U32>,
-                    Buffer<U32>, Buffer<U32>, Buffer<shared::Draw>, Buffer<shared::Material>,
-                    Buffer<float>, Buffer<U32>, Buffer<U32>, Buffer<float>, Buffer<U32>>
+                    Buffer<float>, Buffer<U32>, Buffer<float>, Buffer<float>, Buffer<int>,
+                    Buffer<U32>, Buffer<U32>, Buffer<U32>, Buffer<shared::Draw>,
+                    Buffer<shared::Material>, Buffer<float>, Buffer<U32>, Buffer<U32>,
+                    Buffer<float>, Buffer<U32>>
         bins_;
     LightCells cells_;
     Buffer<U32> masks_;

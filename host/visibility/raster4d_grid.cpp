@@ -75,10 +75,11 @@ void Raster4dGrid::run(const Inputs& inputs, const Params& params, const LightRe
         });
         device_->profiler().beginStage("masks");
         masks_.launch({static_cast<std::uint64_t>(grid.size * grid.rowCount)}, {1}, params, grid,
-                      receivers.planes(), triangles.bounds(0), triangles.corners(), triangles.world(), triangles.order(), receiverLists_.cursors, receiverLists_.entries,
-                      triangleLists_.cursors, triangleLists_.entries, cells.x, cells.y,
-                      cells.sample, mesh.indices, mesh.triangleDraw, mesh.draws, mesh.materials,
-                      mesh.uvs, mesh.colours, mesh.texels, receiverMasks_);
+                      receivers.planes(), triangles.bounds(0), triangles.corners(),
+                      triangles.world(), triangles.order(), receiverLists_.cursors,
+                      receiverLists_.entries, triangleLists_.cursors, triangleLists_.entries,
+                      cells.x, cells.y, cells.sample, mesh.indices, mesh.triangleDraw, mesh.draws,
+                      mesh.materials, mesh.uvs, mesh.colours, mesh.texels, receiverMasks_);
     }
     finish_.launch({count}, {64}, params, receivers.image(), inputs.gbuffer.planes,
                    receivers.planes(), receivers.count(), cells.x, cells.y, cells.sample,

@@ -38,8 +38,8 @@ class Raster4dGrid {
     runtime::Kernel<Params, GridParams, Buffer<float>, Buffer<U32>, Buffer<U32>, Buffer<U32>>
         assignTriangles_;
     runtime::Kernel<Buffer<U32>, Buffer<U32>> longest_;
-    runtime::Kernel<Params, GridParams, Buffer<float>, Buffer<float>, Buffer<float>, Buffer<float>, Buffer<U32>,
-                    Buffer<U32>, Buffer<U32>, Buffer<U32>, Buffer<U32>, Buffer<float>,
+    runtime::Kernel<Params, GridParams, Buffer<float>, Buffer<float>, Buffer<float>, Buffer<float>,
+                    Buffer<U32>, Buffer<U32>, Buffer<U32>, Buffer<U32>, Buffer<U32>, Buffer<float>,
                     Buffer<float>, Buffer<int>, Buffer<U32>, Buffer<U32>, Buffer<shared::Draw>,
                     Buffer<shared::Material>, Buffer<float>, Buffer<U32>, Buffer<U32>, Buffer<U32>>
         masks_;

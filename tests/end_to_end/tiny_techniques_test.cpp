@@ -26,7 +26,8 @@ RenderOptions optionsOf(const Rival& rival) {
     options.technique = rival.technique;
     if (!rival.pattern.empty()) options.lightPattern = rival.pattern;
     options.settings = rival.settings;
-    if (rival.technique != "raytrace") options.settings[rival.technique + ".resolution"] = "64";
+    if (rival.technique != "raytrace" && rival.technique != "raster4d")
+        options.settings[rival.technique + ".resolution"] = "64";
     options.aovs = {"visibility"};
     return options;
 }
@@ -55,7 +56,14 @@ INSTANTIATE_TEST_SUITE_P(
                            {"pcss.halfResolution", "true"},
                            {"pcss.blockerTaps", "4"},
                            {"pcss.filterTaps", "4"}}},
-                    Rival{"essm", "", {}}, Rival{"raytrace", "random", {}}));
+                    Rival{"essm", "", {}}, Rival{"raytrace", "random", {}},
+                    Rival{"raster4d", "", {}}, Rival{"raster4d", "jittered", {}},
+                    Rival{"raster4d",
+                          "",
+                          {{"raster4d.method", "grid"},
+                           {"raster4d.grid", "8"},
+                           {"raster4d.onePixel", "false"},
+                           {"raster4d.reject", "false"}}}));
 
 TEST(TinyMapRasterTest, BothFormsMakeTheSameMapsAndVisibility) {
     for (const char* bits : {"32", "16"}) {
