@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "host/image/frame_planes.h"
 #include "host/scene/builtin.h"
@@ -12,8 +13,6 @@
 #include "kernels/shared/multi_view.h"
 #include "runtime/digest.h"
 #include "runtime/error.h"
-#include "runtime/memory_plan.h"
-#include "runtime/self_test.h"
 #include "runtime/slow_notice.h"
 
 namespace penumbra {
@@ -22,7 +21,6 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kAmbient = 0.05, kWhite = 0.8;
 constexpr int kMaxRetries = 6;
-constexpr double kMaxMegapixels = 90;
 
 std::unique_ptr<runtime::Device> openDevice(const RenderOptions& options) {
     const auto devices = runtime::listDevices();
@@ -178,6 +176,8 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
     device_ = openDevice(options_);
     planScene();
     makePasses();
+    for (const auto& light : scene::lightsAt(scene_, pose, bounds_, choice))
+        checkLight(light);
     plannedBytes_ = planFrame();
     std::string key = scene::sceneDigest(scene_);
     for (const auto& [name, value] : header()) key += fmt::format("{}={}\n", name, value);
@@ -186,71 +186,9 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
 
 Pipeline::~Pipeline() = default;
 
-void Pipeline::planScene() const {
-    runtime::MemoryPlan plan(*device_);
-    // Kernels index all planes of an image with 32 bits
-    const double millions = static_cast<double>(width_) * height_ / 1e6;
-    if (millions > kMaxMegapixels)
-        throw Error(
-            fmt::format(
-                "out of memory: {:.0f} million pixels with supersampling, at most {:.0f} million "
-                "fit; use a smaller --size or --supersample",
-                millions, kMaxMegapixels),
-            ExitCode::outOfMemory);
-    const auto pixels = static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
-    plan.add("G-buffer", pixels * GB_PLANES * sizeof(float));
-    plan.add("visibility buffer", pixels * 8);
-    plan.add("colour and visibility", pixels * 5 * sizeof(float));
-    if (options_.temporal > 1)
-        plan.add("visibility history",
-                 2ULL * static_cast<std::uint64_t>(options_.temporal) * pixels * sizeof(float));
-    plan.add(options_.technique, visibility::findTechnique(options_.technique)
-                                     .plannedBytes({*device_, options_.settings, width_, height_}));
-    plan.check();
-}
-
-std::uint64_t Pipeline::planFrame() const {
-    runtime::MemoryPlan plan(*device_);
-    const auto& mesh = geometry_->mesh();
-    plan.addHeld("scene and images");
-    plan.add(fmt::format("lists and maps of {}", options_.technique), technique_->frameBytes(mesh));
-    if (maskBytes_ > 0) plan.add("occlusion masks", maskBytes_);
-    const auto lights = std::max<std::size_t>(scene_.lights.size(), 1);
-    if (options_.temporal > 1)
-        plan.add("visibility history",
-                 2ULL * static_cast<std::uint64_t>(options_.temporal - 1) * lights *
-                     static_cast<std::uint64_t>(technique_->channels(mesh)) *
-                     static_cast<std::uint64_t>(shared::gbufferStride(width_ * height_)) *
-                     sizeof(float));
-    plan.check();
-    return plan.plannedBytes();
-}
-
-void Pipeline::makePasses() {
-    program_ = std::make_unique<runtime::Program>(*device_, "frame");
-    runtime::selfTest(*program_);
-    geometry_ = std::make_unique<geometry::Geometry>(*program_, scene_, bounds_.centre());
-    gbuffer_ = std::make_unique<gbuffer::GBufferPass>(*program_, width_, height_);
-    technique_ = visibility::findTechnique(options_.technique)
-                     .make({*device_, options_.settings, width_, height_});
-    requireUsage(!aovs_.depthMaps || technique_->hasDepthMaps(),
-                 "--aov depth-maps: technique {} makes none; vwss, mvr, mvss, pcss and essm do",
-                 options_.technique);
-    const auto pose = scene::poseAt(scene_, clips_, 0);
-    for (const auto& light : scene::lightsAt(scene_, pose, bounds_, sampleChoice(options_, 0)))
-        checkLight(light);
-    if (geometry_->mesh().hasBlend)
-        warnOnce(
-            "blended and transmissive surfaces are seen as opaque where their alpha is above 0.5, "
-            "and block "
-            "a share of the light samples by their opacity");
-    shade_ = std::make_unique<shading::Shade>(*program_, width_, height_);
-    temporal_ = std::make_unique<shading::Temporal>(*program_, width_, height_, options_.temporal);
-    const auto pixels = static_cast<std::uint64_t>(shared::gbufferStride(width_ * height_));
-    const auto channels = static_cast<std::uint64_t>(technique_->channels(geometry_->mesh()));
-    visibility_.planes =
-        runtime::Buffer<float>(*device_, "visibility", runtime::Shape{1, channels, pixels});
-    visibility_.state = runtime::Buffer<std::uint32_t>(*device_, "pixel states", pixels);
+scene::CameraFrame Pipeline::cameraOf(const scene::Pose& pose) const {
+    return scene::cameraAt(scene_, pose, cameraChoice(options_), bounds_,
+                           static_cast<double>(options_.width) / options_.height);
 }
 
 void Pipeline::checkLight(const scene::AreaLight& light) {
@@ -294,6 +232,7 @@ void Pipeline::enqueue(const geometry::Mesh& mesh, bool keep) {
         if (keep && aovs_.depthMaps) keptMaps_.push_back(std::move(maps));
         if (keep && aovs_.mask) keptMasks_.push_back(std::move(masks));
     }
+    if (composite_) composite_->run(gbuffer, shade_->colour());
 }
 
 bool Pipeline::anyListGrew() {
@@ -303,8 +242,7 @@ bool Pipeline::anyListGrew() {
 
 int Pipeline::renderOnDevice(int number, bool keep) {
     const scene::Pose pose = scene::poseAt(scene_, clips_, secondsOf(number));
-    camera_ = scene::cameraAt(scene_, pose, cameraChoice(options_), bounds_,
-                              static_cast<double>(options_.width) / options_.height);
+    camera_ = cameraOf(pose);
     lights_ = scene::lightsAt(scene_, pose, bounds_, sampleChoice(options_, number));
     const geometry::Mesh& mesh = geometry_->run(pose);
     int retries = 0;
@@ -315,6 +253,7 @@ int Pipeline::renderOnDevice(int number, bool keep) {
                 number, retries);
         temporal_->undo();
         technique_->takeCounts();
+        makeForPixels();
     }
     temporal_->endFrame(gbuffer_->result(), camera_, bounds_.centre());
     lastFrame_ = number;
@@ -349,6 +288,10 @@ Frame Pipeline::collect(int number) {
     planes.supersample = options_.supersample;
     planes.stride = gbuffer_->result().planeStride;
     planes.colour = shade_->colour().download();
+    if (composite_) {
+        planes.alpha = composite_->alpha().download();
+        planes.front = composite_->front().download();
+    }
     const bool surfaces = aovs_.depth || aovs_.normal || aovs_.position || aovs_.albedo || aovs_.id;
     const auto stride = static_cast<std::uint64_t>(planes.stride);
     const auto& source = gbuffer_->result().planes;
@@ -373,11 +316,14 @@ Frame Pipeline::collect(int number) {
 std::vector<bool> Pipeline::testedPixels() const {
     const auto n = static_cast<std::size_t>(options_.supersample);
     const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
+    std::vector<std::uint32_t> front(width * height);
+    std::iota(front.begin(), front.end(), 0U);
+    if (composite_) front = composite_->front().download();
     std::vector<bool> tested((width / n) * (height / n), false);
     for (const auto& states : keptStates_)
         for (std::size_t y = 0; y < height; ++y)
             for (std::size_t x = 0; x < width; ++x)
-                if (states[y * width + x] == STATE_TESTED)
+                if (states[front[y * width + x]] == STATE_TESTED)
                     tested[y / n * (width / n) + x / n] = true;
     return tested;
 }

@@ -12,6 +12,7 @@
 #include "host/scene/bounds.h"
 #include "host/scene/camera.h"
 #include "host/scene/light.h"
+#include "host/shading/composite.h"
 #include "host/shading/shade.h"
 #include "host/shading/temporal.h"
 #include "host/visibility/technique.h"
@@ -51,8 +52,15 @@ class Pipeline {
 
   private:
     double secondsOf(int number) const;
+    scene::CameraFrame cameraOf(const scene::Pose& pose) const;
     void makePasses();
     void checkLight(const scene::AreaLight& light);
+    /// Runs the G-buffer at the clip's start until the lists of blended fragments fit (waits), so
+    /// that the plan and what follows know their length.
+    void sizeLists();
+    /// Makes what has an entry for each pixel of the G-buffer, blended fragments included; anew
+    /// where their number has grown.
+    void makeForPixels();
     /// What can be said before anything is allocated, and what the first frame will add to what is
     /// held then. Throw Error (exit code 4) with the figures where that does not fit.
     void planScene() const;
@@ -83,7 +91,9 @@ class Pipeline {
     std::unique_ptr<visibility::Technique> technique_;
     std::unique_ptr<shading::Shade> shade_;
     std::unique_ptr<shading::Temporal> temporal_;
+    std::unique_ptr<shading::Composite> composite_;  ///< null: nothing is blended
     visibility::Visibility visibility_;
+    int madeForRows_ = 0;                             ///< of the G-buffer
     std::vector<std::vector<float>> keptVisibility_;  ///< per light, when asked for
     std::vector<visibility::DepthMaps> keptMaps_;
     std::vector<visibility::OcclusionMasks> keptMasks_;

@@ -61,7 +61,9 @@ TechniqueRun::TechniqueRun(PosedScene& posed, const std::string& technique,
     const auto camera = scene::cameraAt(posed.scene, pose, {}, posed.bounds, 16.0 / 9);
     do pass_.run(posed.mesh(), camera, posed.bounds.centre());
     while (pass_.grew());
-    technique_ = visibility::findTechnique(technique).make({device(), settings, kWidth, kHeight});
+    const auto& gbuffer = pass_.result();
+    technique_ = visibility::findTechnique(technique).make(
+        {device(), settings, kWidth, gbuffer.rows(), gbuffer.fragmentRows});
     const auto stride = static_cast<std::uint64_t>(pass_.result().planeStride);
     visibility_.planes = runtime::Buffer<float>(device(), "visibility", 3 * stride);
     visibility_.state = runtime::Buffer<std::uint32_t>(device(), "states", stride);

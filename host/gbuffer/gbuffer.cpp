@@ -35,7 +35,8 @@ GBufferPass::GBufferPass(const runtime::Program& frame, int width, int height, b
       tiles_(frame.device()),
       depth_(frame, "gbuffer_depth"),
       id_(frame, "gbuffer_id"),
-      resolve_(frame, "gbuffer_resolve") {
+      resolve_(frame, "gbuffer_resolve"),
+      abuffer_(frame, width, height) {
     requireUsage(width > 0 && height > 0 && width <= RASTER_MAX_SIZE && height <= RASTER_MAX_SIZE,
                  "--size {}x{} is outside of 1x1 to {}x{} pixels", width, height, RASTER_MAX_SIZE,
                  RASTER_MAX_SIZE);
@@ -49,8 +50,22 @@ GBufferPass::GBufferPass(const runtime::Program& frame, int width, int height, b
     visibility_ = Buffer<std::uint32_t>(device, "visibility buffer", wide_ ? 2 * pixels : pixels);
     gbuffer_.width = width;
     gbuffer_.height = height;
-    gbuffer_.planeStride = static_cast<int>(pixels);
+    fitRows();
     gbuffer_.planes = Buffer<float>(device, "G-buffer", runtime::Shape{1, GB_PLANES, pixels});
+}
+
+/// Leaves the planes unallocated where the number of rows has changed.
+void GBufferPass::fitRows() {
+    if (gbuffer_.planeStride > 0 && gbuffer_.fragmentRows == abuffer_.rows()) return;
+    gbuffer_.fragmentRows = abuffer_.rows();
+    gbuffer_.planeStride = paddedPixels(gbuffer_.width, gbuffer_.rows());
+    gbuffer_.planes = Buffer<float>();
+}
+
+bool GBufferPass::grew() {
+    const bool opaque = tiles_.grew(), blended = abuffer_.grew();
+    fitRows();
+    return opaque || blended;
 }
 
 std::uint64_t GBufferPass::plannedBytes(int width, int height) {
@@ -82,6 +97,14 @@ const GBuffer& GBufferPass::run(const Mesh& mesh, const scene::CameraFrame& came
     view.cullBack = DRAW_SINGLE_SIDED;
     view.triangleCount = static_cast<int>(mesh.triangleCount);
     rasterise(view, mesh);
+    const FragmentLists& lists = abuffer_.lists();
+    gbuffer_.blended = mesh.hasBlend ? &lists : nullptr;
+    if (mesh.hasBlend) abuffer_.run(view, mesh, wide_ ? visibility_ : depthBits_, wide_ ? 2 : 1);
+    fitRows();
+    if (!gbuffer_.planes.allocated())
+        gbuffer_.planes = Buffer<float>(
+            *device_, "G-buffer",
+            runtime::Shape{1, GB_PLANES, static_cast<std::uint64_t>(gbuffer_.planeStride)});
     device_->profiler().beginStage("resolve");
     auto params = paramsFor(camera, centre);
     params.width = gbuffer_.width;
@@ -89,10 +112,12 @@ const GBuffer& GBufferPass::run(const Mesh& mesh, const scene::CameraFrame& came
     params.planeStride = gbuffer_.planeStride;
     params.idStride = wide_ ? 2 : 1;
     params.hasPrevious = mesh.moved ? 1 : 0;
+    params.fragmentCapacity = lists.capacity;
     resolve_.launch({static_cast<std::uint64_t>(gbuffer_.planeStride)}, {64}, params, view,
                     mesh.positions, mesh.normals, mesh.tangents, mesh.previousPositions,
                     mesh.indices, mesh.triangleDraw, mesh.draws, mesh.materials, mesh.uvs,
-                    mesh.colours, mesh.texels, visibility_, gbuffer_.planes);
+                    mesh.colours, mesh.texels, visibility_, lists.ends, lists.fragments,
+                    lists.owners, lists.coverage, gbuffer_.planes);
     return gbuffer_;
 }
 

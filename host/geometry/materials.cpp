@@ -117,6 +117,24 @@ class TexturePacker {
     std::map<std::pair<int, bool>, Packed> packed_;
 };
 
+/// True if every alpha between those of the texels blends.
+bool alwaysBlends(const scene::Scene& scene, const scene::Material& m) {
+    if (m.alphaMode != scene::AlphaMode::blend) return false;
+    std::uint8_t low = 255, high = 255;
+    const int index = m.baseColorTexture.image;
+    if (index >= 0) {
+        const auto& texels = scene.images[static_cast<std::size_t>(index)].texels;
+        if (!texels.empty()) high = 0;
+        for (std::size_t i = 3; i < texels.size(); i += 4) {
+            low = std::min(low, texels[i]);
+            high = std::max(high, texels[i]);
+        }
+    }
+    const float alpha = m.baseColor.w / 255;
+    return alpha * static_cast<float>(low) > 0 &&
+           (m.transmission > 0 || alpha * static_cast<float>(high) < BLEND_OPAQUE_ALPHA);
+}
+
 }  // namespace
 
 MaterialArrays packMaterials(const scene::Scene& scene) {
@@ -138,6 +156,7 @@ MaterialArrays packMaterials(const scene::Scene& scene) {
         out.alphaCutoff = m.alphaCutoff;
         out.transmission = m.transmission;
         out.flags = m.alphaMode == scene::AlphaMode::opaque ? MATERIAL_OPAQUE : 0;
+        if (alwaysBlends(scene, m)) out.flags |= MATERIAL_BLENDS;
         arrays.materials.push_back(out);
     }
     return arrays;

@@ -17,6 +17,12 @@ std::size_t sampleIndex(const FramePlanes& p, int x, int y, int dx, int dy) {
            static_cast<std::size_t>(x * s + dx);
 }
 
+/// The entry that channels beside colour show there.
+std::size_t frontIndex(const FramePlanes& p, int x, int y, int dx, int dy) {
+    const auto pixel = sampleIndex(p, x, y, dx, dy);
+    return p.front.empty() ? pixel : p.front[pixel];
+}
+
 /// Calls fn(output index, x, y) for each pixel.
 template <typename Fn>
 void forPixels(const FramePlanes& p, Fn&& fn) {
@@ -32,7 +38,7 @@ std::vector<float> averaged(const FramePlanes& p, const float* plane) {
     forPixels(p, [&](std::size_t out, int x, int y) {
         float sum = 0;
         for (int dy = 0; dy < s; ++dy)
-            for (int dx = 0; dx < s; ++dx) sum += plane[sampleIndex(p, x, y, dx, dy)];
+            for (int dx = 0; dx < s; ++dx) sum += plane[frontIndex(p, x, y, dx, dy)];
         values[out] = sum / static_cast<float>(s * s);
     });
     return values;
@@ -43,7 +49,7 @@ std::vector<float> picked(const FramePlanes& p, const float* plane) {
                               static_cast<std::size_t>(p.height));
     const int middle = p.supersample / 2;
     forPixels(p, [&](std::size_t out, int x, int y) {
-        values[out] = plane[sampleIndex(p, x, y, middle, middle)];
+        values[out] = plane[frontIndex(p, x, y, middle, middle)];
     });
     return values;
 }
@@ -96,7 +102,8 @@ Frame assembleFrame(const FramePlanes& p, const AovChoice& aovs, const glm::dvec
             for (int dx = 0; dx < s; ++dx) {
                 const auto i = sampleIndex(p, x, y, dx, dy);
                 for (std::size_t c = 0; c < 3; ++c) sum[c] += p.colour[c * stride + i];
-                sum[3] += std::bit_cast<std::uint32_t>(objects[i]) != 0 ? 1.0F : 0.0F;
+                const bool covered = std::bit_cast<std::uint32_t>(objects[i]) != 0;
+                sum[3] += p.alpha.empty() ? (covered ? 1.0F : 0.0F) : p.alpha[i];
             }
         for (std::size_t c = 0; c < 4; ++c) frame.rgba[4 * out + c] = sum[c] * share;
     });
@@ -120,15 +127,16 @@ void addMasks(const FramePlanes& p, const std::string& light,
     frame.maskWidth = p.width * p.supersample;
     frame.maskHeight = p.height * p.supersample;
     frame.maskCells.emplace_back(light, fmt::format("{}x{}", masks.columns, masks.rows));
-    const auto pixels = static_cast<std::ptrdiff_t>(frame.maskWidth) *
-                        static_cast<std::ptrdiff_t>(frame.maskHeight);
+    const auto pixels =
+        static_cast<std::size_t>(frame.maskWidth) * static_cast<std::size_t>(frame.maskHeight);
     for (int plane = 0; plane < masks.rows * masks.words(); ++plane) {
-        const auto first = masks.bits.begin() + static_cast<std::ptrdiff_t>(
-                                                    static_cast<std::size_t>(plane) * masks.stride);
+        const auto* words = masks.bits.data() + static_cast<std::size_t>(plane) * masks.stride;
+        std::vector<std::uint32_t> bits(words, words + pixels);
+        for (std::size_t i = 0; i < p.front.size(); ++i) bits[i] = words[p.front[i]];
         frame.masks.push_back(
             {fmt::format("{}.{:02}.{}", light, plane / masks.words(), plane % masks.words()),
              {},
-             {first, first + pixels}});
+             std::move(bits)});
     }
 }
 

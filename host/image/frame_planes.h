@@ -21,6 +21,9 @@ struct FramePlanes {
     std::vector<float> colour;   ///< [3, stride]
     std::vector<float> gbuffer;  ///< [GB_PLANES, stride], or empty
     std::vector<float> objects;  ///< [stride], where gbuffer is empty
+    std::vector<float> alpha;    ///< [pixel] coverage; empty: 1 where there is an object
+    /// [pixel] the entry of the planes beside colour that a pixel shows; empty: its own
+    std::vector<std::uint32_t> front;
 };
 
 Frame assembleFrame(const FramePlanes& planes, const AovChoice& aovs, const glm::dvec3& centre);

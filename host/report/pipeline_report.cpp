@@ -49,6 +49,8 @@ std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, 
                            {"mapBytes", counts.mapBytes},
                            {"nearPoints", counts.nearPoints},
                            {"outsideFov", counts.outsideFov},
+                           {"blendedFragments", gbuffer_->fragmentCounts().fragments},
+                           {"blendedLayers", gbuffer_->fragmentCounts().layers},
                            {"bytes", device_->memory().current},
                            {"retries", retries},
                            {"dropped", geometry_->counts().nonFiniteVertices}};

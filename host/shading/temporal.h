@@ -13,7 +13,8 @@ using runtime::Buffer;
 
 class Temporal {
   public:
-    /// `window`: frames averaged, this one included.
+    /// `window`: frames averaged, this one included. Width and height of the image; blended
+    /// fragments are followed as its pixels are.
     Temporal(const runtime::Program& frame, int width, int height, int window);
 
     /// Forgets all history: the next frame is the first of its window.
@@ -33,17 +34,19 @@ class Temporal {
         Buffer<float> now, last;  ///< [age, channel, stride]
     };
     runtime::Device* device_;
-    int width_, height_, stride_, window_;
+    int width_, height_, window_;
     int valid_ = 0;
     shared::TemporalParams lastCamera_{};
-    runtime::Kernel<shared::TemporalParams, Buffer<float>, Buffer<float>, Buffer<std::uint32_t>,
-                    Buffer<std::uint32_t>, Buffer<float>, Buffer<float>, Buffer<float>>
+    using U32 = std::uint32_t;
+    runtime::Kernel<shared::TemporalParams, Buffer<float>, Buffer<U32>, Buffer<U32>, Buffer<U32>,
+                    Buffer<float>, Buffer<U32>, Buffer<U32>, Buffer<float>, Buffer<float>,
+                    Buffer<float>>
         temporal_;
-    runtime::Kernel<shared::TemporalParams, Buffer<std::uint32_t>, Buffer<float>, Buffer<float>>
-        begin_;
-    runtime::Kernel<int, Buffer<float>, Buffer<float>, Buffer<std::uint32_t>> keep_;
+    runtime::Kernel<shared::TemporalParams, Buffer<U32>, Buffer<float>, Buffer<float>> begin_;
+    runtime::Kernel<int, Buffer<float>, Buffer<float>, Buffer<U32>> keep_;
+    Buffer<U32> noLists_, lastEnds_;
     Buffer<float> lastDepth_;
-    Buffer<std::uint32_t> lastObject_;
+    Buffer<U32> lastObject_;
     std::vector<std::unique_ptr<History>> histories_;
     std::size_t lightsRun_ = 0;  ///< in this frame
 };

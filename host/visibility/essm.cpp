@@ -108,7 +108,7 @@ Essm::Essm(const TechniqueContext& context)
       shared_(context.device, "multi_view"),
       maps_(context.device, "mvr"),
       program_(context.device, "essm"),
-      multiView_(shared_, settings_, context.width, context.height),
+      multiView_(shared_, settings_, context.width, context.height, context.fragmentRows),
       source_(maps_, program_, settings_),
       reader_(program_, settings_, source_) {}
 

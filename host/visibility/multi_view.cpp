@@ -18,7 +18,7 @@ constexpr int kStreamedViews = 8;  // maps that a CPU holds at a time: more fall
 }  // namespace
 
 MultiView::MultiView(const runtime::Program& multiView, const MapSettings& settings, int width,
-                     int height)
+                     int height, int fragmentRows)
     : device_(&multiView.device()),
       settings_(settings),
       stride_(shared::gbufferStride(width * height)),
@@ -32,11 +32,13 @@ MultiView::MultiView(const runtime::Program& multiView, const MapSettings& setti
     const int step = settings.halfResolution ? 2 : 1;
     image_.width = width;
     image_.height = height;
+    image_.fragmentRows = fragmentRows;
     image_.planeStride = stride_;
     image_.pixelStep = step;
     image_.receiverWidth = (width + step - 1) / step;
-    const int receivers = image_.receiverWidth * ((height + step - 1) / step);
-    image_.receiverStride = shared::gbufferStride(receivers);
+    const int rows = height - fragmentRows;
+    const int receivers = image_.receiverWidth * ((rows + step - 1) / step);
+    image_.receiverStride = shared::gbufferStride(receivers + width * fragmentRows);
     image_.originOffset = SHADOW_ORIGIN_OFFSET;
     const auto slots = static_cast<std::uint64_t>(image_.receiverStride);
     auto& r = receiverImage_;
@@ -111,6 +113,9 @@ void MultiView::pack(const LightView& view, const MapBatch& batch) {
 
 void MultiView::run(const Inputs& inputs, const scene::AreaLight& views, MapSource& source,
                     MapReader& reader, Visibility& visibility) {
+    require(inputs.gbuffer.planeStride == stride_,
+            "the technique was made for G-buffer planes of {} floats, they have {}", stride_,
+            inputs.gbuffer.planeStride);
     LightView view =
         fitLightView(views, inputs.casters, inputs.centre, settings_.resolution, source.density());
     view.params.depthBits = settings_.depthBits;

@@ -63,8 +63,10 @@ class MapReader {
 
 class MultiView {
   public:
-    MultiView(const runtime::Program& multiView, const MapSettings& settings, int width,
-              int height);
+    /// The last `fragmentRows` of the height hold pixels without neighbours on the screen: each is
+    /// tested itself, also with halfResolution.
+    MultiView(const runtime::Program& multiView, const MapSettings& settings, int width, int height,
+              int fragmentRows = 0);
 
     /// Receivers and one depth map: the least that it works with.
     static std::uint64_t plannedBytes(const MapSettings& settings, int width, int height);

@@ -7,7 +7,7 @@ Mvr::Mvr(const TechniqueContext& context)
     : settings_(parseSettings<MvrSettings>("mvr", context.values)),
       shared_(context.device, "multi_view"),
       program_(context.device, "mvr"),
-      multiView_(shared_, settings_, context.width, context.height),
+      multiView_(shared_, settings_, context.width, context.height, context.fragmentRows),
       source_(program_, {settings_.form, settings_.coverage, settings_.cull}),
       reader_(shared_, {settings_.pcf, settings_, false}) {}
 

@@ -17,7 +17,7 @@ Mvss::Mvss(const TechniqueContext& context)
     : settings_(parseSettings<MvssSettings>("mvss", context.values)),
       shared_(context.device, "multi_view"),
       program_(context.device, "mvr"),
-      multiView_(shared_, settings_, context.width, context.height),
+      multiView_(shared_, settings_, context.width, context.height, context.fragmentRows),
       source_(program_, {settings_.form, Coverage::standard, settings_.cull, true,
                          settings_.constantBias, settings_.slopeBias}),
       reader_(shared_, {Pcf::bilinear, {0, 0, 0}, true}) {}

@@ -88,7 +88,7 @@ Pcss::Pcss(const TechniqueContext& context)
       shared_(context.device, "multi_view"),
       maps_(context.device, "mvr"),
       program_(context.device, "pcss"),
-      multiView_(shared_, settings_, context.width, context.height),
+      multiView_(shared_, settings_, context.width, context.height, context.fragmentRows),
       source_(maps_, {MapForm::textbook, Coverage::standard, settings_.cull}),  // one map
       reader_(program_, settings_) {}
 

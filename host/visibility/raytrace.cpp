@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "kernels/shared/gbuffer.h"
+#include "runtime/error.h"
 #include "runtime/profiler.h"
 
 namespace penumbra::visibility {
@@ -40,6 +41,9 @@ RayPass::RayPass(const runtime::Program& raytrace, int width, int height)
 
 void RayPass::run(const Inputs& inputs, const Bvh& bvh, U32 onlyState, bool classify,
                   Visibility& visibility) {
+    require(inputs.gbuffer.planeStride == image_.planeStride,
+            "rays were prepared for G-buffer planes of {} floats, they have {}", image_.planeStride,
+            inputs.gbuffer.planeStride);
     device_->profiler().beginStage("rays");
     const auto& light = inputs.light;
     samples_.grow(*device_, "ray targets", 3 * light.samples.size());

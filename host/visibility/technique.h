@@ -94,6 +94,9 @@ struct TechniqueContext {
     runtime::Device& device;
     const SettingValues& values;
     int width, height;  ///< of the G-buffer
+    /// Of the height: the last rows hold blended fragments, whose neighbours there are no
+    /// neighbours on the screen. They are receivers as any pixel.
+    int fragmentRows = 0;
 };
 
 /// A row of the list of techniques.

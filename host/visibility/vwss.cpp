@@ -85,7 +85,7 @@ class Vwss::Source : public MapSource {
 Vwss::Vwss(const TechniqueContext& context)
     : settings_(parseSettings<VwssSettings>("vwss", context.values)),
       program_(context.device, "multi_view"),
-      multiView_(program_, settings_, context.width, context.height),
+      multiView_(program_, settings_, context.width, context.height, context.fragmentRows),
       reader_(program_, {settings_.pcf, settings_, false}),
       source_(std::make_unique<Source>(context.device, settings_, program_)) {}
 

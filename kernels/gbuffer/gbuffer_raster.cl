@@ -3,9 +3,6 @@
 // triangles of that depth, the lowest index. Both passes compute a fragment's depth alike.
 // depthBits  [height, width]  float bits, cleared to 0
 // ids        [height, width]  ~triangle, cleared to 0
-#include "lib/raster.h"
-#include "lib/texture.h"
-
 #include "gbuffer/gbuffer_alpha.h"
 
 #define RASTER_KERNEL gbuffer_depth

@@ -3,9 +3,6 @@
 // visibility  [height, width, 2]  as ulong: depth bits << 32 | ~triangle, cleared to 0; uint* so that
 //             the resolve pass reads the same buffer (little-endian: the triangle comes first)
 #pragma OPENCL EXTENSION cl_khr_int64_extended_atomics : enable
-#include "lib/raster.h"
-#include "lib/texture.h"
-
 #include "gbuffer/gbuffer_alpha.h"
 
 #define RASTER_KERNEL gbuffer_raster64

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Turns the nearest triangle of each pixel into surface attributes.
-//   triangle per pixel --perspective-correct barycentrics--> position, normals, material
-#include "lib/raster.h"
-#include "lib/texture.h"
+// Turns the nearest triangle of each pixel, and those of the blended fragments before it, into surface
+// attributes.
+//   triangle per pixel or fragment --perspective-correct barycentrics--> position, normals, material
+#include "gbuffer/surface_colour.h"
+#include "shared/abuffer.h"
 #include "shared/gbuffer.h"
-
-typedef struct {
-    float4 albedo;
-    float3 emissive, normal;
-    float metallic, roughness;
-} Surface;
 
 inline float3 interpolate3(global const float* values, uint v0, uint v1, uint v2, float3 b) {
     return load3(values, v0) * b.x + load3(values, v1) * b.y + load3(values, v2) * b.z;
@@ -48,9 +43,49 @@ inline void storeBackground(global float* planes, int stride, int pixel) {
     planes[GB_DEPTH * stride + pixel] = INFINITY;
 }
 
-/// One work-item per pixel of the padded image; the padding becomes background.
-/// visibility         ~triangle per pixel, every idStride words; 0: background
+/// What a pixel of the G-buffer shows, and where the camera sees it.
+typedef struct {
+    uint id;       ///< ~triangle; 0: background
+    int x, y;
+    int fragment;  ///< of the A-buffer; -1: a pixel of the image
+} PixelSource;
+
+inline PixelSource pixelSource(const GBufferParams* params, int pixel, global const uint* restrict visibility,
+                               global const uint* restrict ends, global const uint* restrict fragments,
+                               global const uint* restrict owners) {
+    const int pixels = params->width * params->height;
+    PixelSource s = {0, 0, 0, -1};
+    int at = pixel;
+    if (pixel < pixels) {
+        s.id = visibility[pixel * params->idStride];
+    } else if (params->fragmentCapacity > 0) {
+        s.fragment = pixel - pixels;
+        if ((uint)s.fragment >= min(ends[pixels - 1], params->fragmentCapacity)) return s;
+        s.id = ~fragments[2 * s.fragment + 1];
+        at = (int)owners[s.fragment];
+    }
+    s.x = at % params->width;
+    s.y = at / params->width;
+    return s;
+}
+
+/// A blended fragment: what is behind it shines through by alpha and transmission. What is transmitted is not
+/// reflected: KHR_materials_transmission.
+inline void blendSurface(global const Material* m, uint capacity, int fragment, float4* albedo,
+                         global float* restrict coverage) {
+    const float alpha = m->flags & MATERIAL_OPAQUE ? 1.0f : clamp(albedo->w, 0.0f, 1.0f);
+    const float3 filter = albedo->xyz * (alpha * m->transmission);
+    coverage[COVERAGE_ALPHA * capacity + fragment] = alpha;
+    coverage[COVERAGE_THROUGH * capacity + fragment] = 1.0f - alpha + filter.x;
+    coverage[(COVERAGE_THROUGH + 1) * capacity + fragment] = 1.0f - alpha + filter.y;
+    coverage[(COVERAGE_THROUGH + 2) * capacity + fragment] = 1.0f - alpha + filter.z;
+    *albedo *= 1.0f - m->transmission;
+}
+
+/// One work-item per pixel of the G-buffer; the padding becomes background.
+/// visibility         ~triangle per pixel of the image, every idStride words; 0: background
 /// previousPositions  posed vertices of the last frame
+/// ends, fragments, owners, coverage  see shared/abuffer.h
 /// planes             see shared/gbuffer.h
 kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
                             global const float* restrict positions,
@@ -60,21 +95,24 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
                             global const uint* restrict triangleDraw, global const Draw* restrict draws,
                             global const Material* restrict materials, global const float* restrict uvs,
                             global const uint* restrict colours, global const uint* restrict texels,
-                            global const uint* restrict visibility, global float* restrict planes) {
+                            global const uint* restrict visibility, global const uint* restrict ends,
+                            global const uint* restrict fragments, global const uint* restrict owners,
+                            global float* restrict coverage, global float* restrict planes) {
     const int pixel = get_global_id(0), stride = params.planeStride;
     if (pixel >= stride) return;
-    const uint id = pixel < params.width * params.height ? visibility[pixel * params.idStride] : 0;
-    if (id == 0) {
+    const PixelSource source = pixelSource(&params, pixel, visibility, ends, fragments, owners);
+    if (source.id == 0) {
         storeBackground(planes, stride, pixel);
         return;
     }
-    const int x = pixel % params.width, y = pixel / params.width;
-    const uint triangle = ~id;
+    const int x = source.x, y = source.y;
+    const uint triangle = ~source.id;
     const Draw draw = draws[triangleDraw[triangle]];
     const uint i0 = indices[3 * triangle], i1 = indices[3 * triangle + 1], i2 = indices[3 * triangle + 2];
     const RasterVertex v[3] = {rasterVertex(&view, positions, i0), rasterVertex(&view, positions, i1),
                                rasterVertex(&view, positions, i2)};
-    const float3 b = rasterBarycentrics(v, x, y);
+    const SurfacePoint point = surfacePoint(&draw, indices, uvs, triangle, v, x, y);
+    const float3 b = point.b;
 
     // Geometry
     const float3 p0 = load3(positions, i0), p1 = load3(positions, i1), p2 = load3(positions, i2);
@@ -87,27 +125,14 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
 
     // Material
     global const Material* m = &materials[draw.material];
-    const int s0 = (int)i0 + draw.sourceOffset, s1 = (int)i1 + draw.sourceOffset,
-              s2 = (int)i2 + draw.sourceOffset;
-    float4 albedo = m->baseColor;
+    float4 albedo = surfaceColour(&draw, m, &point, colours, texels);
     float3 emissive = m->emissive.xyz;
     float metallic = m->metallic, roughness = m->roughness;
-    if (draw.flags & DRAW_COLOURS)
-        albedo *= unpackColour(colours[s0]) * b.x + unpackColour(colours[s1]) * b.y +
-                  unpackColour(colours[s2]) * b.z;
     if (draw.flags & DRAW_TEXTURED) {
-        const float4 uv = readUvs(uvs, s0, s1, s2, b);
-        // Neighbours on the plane: clamped into a small triangle they would tell too small a footprint
-        const float4 right = readUvs(uvs, s0, s1, s2, rasterPlaneBarycentrics(v, x + 1, y));
-        const float4 below = readUvs(uvs, s0, s1, s2, rasterPlaneBarycentrics(v, x, y + 1));
-        const Texture colour = m->baseColorTexture, glow = m->emissiveTexture;
-        const Texture rough = m->metallicRoughnessTexture, bumps = m->normalTexture;
-        if (colour.offset >= 0)
-            albedo *= textureRead(texels, &colour, uv, textureLevel(&colour, uv, right, below));
-        if (glow.offset >= 0)
-            emissive *= textureRead(texels, &glow, uv, textureLevel(&glow, uv, right, below)).xyz;
+        const Texture glow = m->emissiveTexture, rough = m->metallicRoughnessTexture, bumps = m->normalTexture;
+        if (glow.offset >= 0) emissive *= surfaceTexel(&point, &glow, texels).xyz;
         if (rough.offset >= 0) {
-            const float4 texel = textureRead(texels, &rough, uv, textureLevel(&rough, uv, right, below));
+            const float4 texel = surfaceTexel(&point, &rough, texels);
             roughness *= texel.y;
             metallic *= texel.z;
         }
@@ -116,13 +141,13 @@ kernel void gbuffer_resolve(const GBufferParams params, const RasterView view,
                               vload4(i2, tangents) * b.z).xyz;
             float handedness = draw.flags & DRAW_MIRRORED ? -tangents[4 * i0 + 3] : tangents[4 * i0 + 3];
             if (handedness == 0.0f)
-                tangent = triangleTangent(p0, p1, p2, vload4(s0, uvs), vload4(s1, uvs), vload4(s2, uvs),
-                                          &bumps, normal, &handedness);
-            normal = applyNormalMap(normal, tangent, handedness,
-                                    textureRead(texels, &bumps, uv, textureLevel(&bumps, uv, right, below)),
+                tangent = triangleTangent(p0, p1, p2, vload4(point.s0, uvs), vload4(point.s1, uvs),
+                                          vload4(point.s2, uvs), &bumps, normal, &handedness);
+            normal = applyNormalMap(normal, tangent, handedness, surfaceTexel(&point, &bumps, texels),
                                     m->normalScale);
         }
     }
+    if (source.fragment >= 0) blendSurface(m, params.fragmentCapacity, source.fragment, &albedo, coverage);
     if (back) normal = -normal;
     if (draw.flags & DRAW_UNLIT) {
         emissive = albedo.xyz;  // KHR_materials_unlit: nothing of the lit model counts

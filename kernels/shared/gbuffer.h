@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Planes of the G-buffer: float [GB_PLANES, height, width], padded to GB_PAD pixels a plane.
+// Planes of the G-buffer: float [GB_PLANES, height + fragment rows, width], padded to GB_PAD pixels a plane.
+// Rows below the image hold its blended fragments, in the order of shared/abuffer.h: they are shaded as pixels.
 #ifndef SHARED_GBUFFER_H
 #define SHARED_GBUFFER_H
 #include "shared/portable.h"
@@ -8,7 +9,7 @@ SHARED_BEGIN
 #define GB_POSITION 0    // 3: world, re-based, metres
 #define GB_GEOMETRIC 3   // 3: unit normal of the triangle, on the side that the camera sees
 #define GB_NORMAL 6      // 3: unit shading normal, on the camera's side
-#define GB_ALBEDO 9      // 3: linear
+#define GB_ALBEDO 9      // 3: linear; of what is not transmitted
 #define GB_METALLIC 12
 #define GB_ROUGHNESS 13
 #define GB_EMISSIVE 14   // 3: linear; unlit colour for unlit surfaces, whose albedo is 0
@@ -28,11 +29,12 @@ inline int gbufferStride(int pixels) {
 typedef struct {
     float4 eye;       ///< world, re-based; w = 1, or w = 0: direction towards the viewer (orthographic)
     float4 rowDepth;  ///< camera depth = dot(rowDepth, (p, 1))
-    int width, height;
+    int width, height;  ///< of the image
     int planeStride;  ///< floats between planes
     int idStride;     ///< words between pixels of the visibility buffer: 1, or 2 with 64-bit atomics
     int hasPrevious;  ///< 0: the last frame's positions are those of this frame
-    int unused[3];
+    uint fragmentCapacity;  ///< of the A-buffer; 0: the scene has no blended surfaces
+    int unused[2];
 } GBufferParams;
 SHARED_STRUCT(GBufferParams, 64)
 

@@ -27,6 +27,9 @@ SHARED_BEGIN
 
 // Flags of a material
 #define MATERIAL_OPAQUE 1u     // alphaMode OPAQUE: alpha is ignored
+#define MATERIAL_BLENDS 2u     // no texel is opaque or nothing: all fragments are blended
+
+#define BLEND_OPAQUE_ALPHA 0.9999f  // from here on BLEND is opaque: rounding may leave that much of an interpolated 1
 
 /// One primitive of one node.
 typedef struct {

@@ -76,7 +76,8 @@ typedef struct {
     int receiverStride;   ///< floats between planes of receivers
     uint outsideState;    ///< of pixels that some view does not hold: STATE_OUTSIDE, or STATE_TESTED
     int countOutside;     ///< 1: the views do not hold all casters, so such pixels are counted
-    int unused[2];
+    int fragmentRows;     ///< last rows of the height: their pixels have no neighbours, each is a receiver
+    int unused;
 } ReceiverParams;
 SHARED_STRUCT(ReceiverParams, 48)
 

@@ -8,11 +8,14 @@
 #include "lib/lanes.h"
 #include "lib/receiver.h"
 
-/// Index of the receiver of a pixel, or -1 where the pixel is not tested itself.
+/// Index of the receiver of a pixel, or -1 where the pixel is not tested itself. The receivers of blended
+/// fragments follow those of the image.
 inline int receiverOf(const ReceiverParams* image, int pixel) {
     if (image->pixelStep == 1) return pixel;
-    const int x = pixel % image->width, y = pixel / image->width;
-    return y < image->height && !(x & 1) && !(y & 1) ? (y >> 1) * image->receiverWidth + (x >> 1) : -1;
+    const int x = pixel % image->width, y = pixel / image->width, rows = image->height - image->fragmentRows;
+    if (y >= image->height) return -1;
+    if (y >= rows) return ((rows + 1) >> 1) * image->receiverWidth + pixel - rows * image->width;
+    return !(x & 1) && !(y & 1) ? (y >> 1) * image->receiverWidth + (x >> 1) : -1;
 }
 
 /// One work-item per pixel, padding included. Fills receivers [RECEIVER_PLANES, receiverStride], state
@@ -101,13 +104,17 @@ kernel void map_upsample(const ReceiverParams image, const int views, const int 
     if (pixel >= stride) return;
     visibility[pixel] = 1.0f;
     if (state[pixel] != STATE_TESTED) return;
-    const int x = pixel % image.width, y = pixel / image.width;
+    const int x = pixel % image.width, y = pixel / image.width, rows = image.height - image.fragmentRows;
     const float total = (float)views * (float)weight;
+    if (y >= rows) {
+        visibility[pixel] = (total - (float)hidden[receiverOf(&image, pixel)]) / total;
+        return;
+    }
     float sum = 0.0f, weights = 0.0f, nearest = 1.0f, nearestWeight = 0.0f;
     for (int i = 0; i < 9; ++i) {
         // Even pixels within two columns and rows
         const int ex = (x & ~1) + 2 * (i % 3 - 1), ey = (y & ~1) + 2 * (i / 3 - 1);
-        if (ex < 0 || ey < 0 || ex >= image.width || ey >= image.height) continue;
+        if (ex < 0 || ey < 0 || ex >= image.width || ey >= rows) continue;
         const float wx = 2.0f - (float)abs(ex - x), wy = 2.0f - (float)abs(ey - y);
         const int other = ey * image.width + ex;
         if (wx <= 0.0f || wy <= 0.0f || state[other] != STATE_TESTED) continue;

@@ -27,7 +27,7 @@ TEST_F(GBufferRaster64, TextureFactorAndVertexColourDecideWhatAnAlphaTestKeeps) 
     expectAlphaDecidesFragments(kPath);
 }
 
-TEST_F(GBufferRaster64, MaskKeepsItsCutoffAndBlendDropsOneHalf) {
+TEST_F(GBufferRaster64, MaskKeepsItsCutoffAndBlendIsOpaqueFromOne) {
     expectThresholdsAreKeptExactly(kPath);
 }
 

@@ -21,7 +21,7 @@ TEST(GBufferRaster, TextureFactorAndVertexColourDecideWhatAnAlphaTestKeeps) {
     expectAlphaDecidesFragments(kPath);
 }
 
-TEST(GBufferRaster, MaskKeepsItsCutoffAndBlendDropsOneHalf) {
+TEST(GBufferRaster, MaskKeepsItsCutoffAndBlendIsOpaqueFromOne) {
     expectThresholdsAreKeptExactly(kPath);
 }
 

@@ -31,8 +31,12 @@ GBufferRun runAfter(const scene::Scene& last, const scene::Scene& scene,
     gbuffer::GBufferPass pass(program("frame"), width, height);
     do pass.run(mesh, camera, glm::dvec3(0));
     while (pass.grew());
-    const auto stride = static_cast<std::size_t>(pass.result().planeStride);
-    return {width, height, stride, pass.result().planes.download(), 0};
+    GBufferRun run;
+    run.width = width;
+    run.height = height;
+    run.stride = static_cast<std::size_t>(pass.result().planeStride);
+    run.planes = pass.result().planes.download();
+    return run;
 }
 
 double distance(const glm::dvec3& a, const glm::dvec3& b) {

@@ -119,12 +119,11 @@ double RasterReference::alphaOf(const FlatTriangle& t, const PlaneHit& hit) cons
     return alpha;
 }
 
-std::vector<RasterFragment> RasterReference::fragments(int column, int row) const {
+std::vector<RasterFragment> RasterReference::covering(int column, int row) const {
     std::vector<RasterFragment> found;
     const auto line = sightLine(camera_, width_, height_, column + 0.5, row + 0.5);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const Screen& screen = screens_[i];
-        const auto& material = *triangles_[i].material;
         if (!screen.faces) continue;
         bool covered = false;
         for (std::size_t c = 1; c + 1 < screen.pixel.size(); ++c)
@@ -137,15 +136,26 @@ std::vector<RasterFragment> RasterReference::fragments(int column, int row) cons
         fragment.depth = hit.depth > 0 ? depthOf(hit.depth) : 1;
         fragment.depth = std::clamp(fragment.depth, screen.depthLow, screen.depthHigh);
         fragment.slack = screen.relativeSlack * (screen.depthHigh - screen.depthLow) + 2e-6;
+        found.push_back(fragment);
+    }
+    return found;
+}
+
+std::vector<RasterFragment> RasterReference::fragments(int column, int row) const {
+    std::vector<RasterFragment> found;
+    const auto line = sightLine(camera_, width_, height_, column + 0.5, row + 0.5);
+    for (auto fragment : covering(column, row)) {
+        const auto& triangle = triangles_[static_cast<std::size_t>(fragment.triangle)];
+        const auto& material = *triangle.material;
+        const bool mask = material.alphaMode == scene::AlphaMode::mask;
+        if (material.transmission > 0 && !mask) continue;
         if (material.alphaMode != scene::AlphaMode::opaque) {
             const bool varies =
-                material.baseColorTexture.image >= 0 || !triangles_[i].primitive->colors.empty();
-            const double alpha = alphaOf(triangles_[i], hit);
-            const bool mask = material.alphaMode == scene::AlphaMode::mask;
-            const double threshold = mask ? material.alphaCutoff : 0.5;
+                material.baseColorTexture.image >= 0 || !triangle.primitive->colors.empty();
+            const double alpha = alphaOf(triangle, hitPlane(triangle, line));
+            const double threshold = mask ? material.alphaCutoff : 0.9999;
             fragment.doubtful = varies && std::abs(alpha - threshold) < 2e-3;
-            const bool passes = mask ? alpha >= threshold : alpha > threshold;
-            if (!passes && !fragment.doubtful) continue;
+            if (alpha < threshold && !fragment.doubtful) continue;
         }
         found.push_back(fragment);
     }

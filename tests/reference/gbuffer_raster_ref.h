@@ -23,7 +23,10 @@ class RasterReference {
   public:
     RasterReference(const scene::Scene& scene, const scene::CameraFrame& camera, int width,
                     int height);
-    /// Fragments that cover the pixel, face the camera and pass their alpha test, or may pass it.
+    /// Fragments that cover the pixel and face the camera.
+    std::vector<RasterFragment> covering(int column, int row) const;
+    /// Those of them that are opaque: they pass their alpha test, or may pass it; BLEND has an
+    /// alpha of 1.
     std::vector<RasterFragment> fragments(int column, int row) const;
 
   private:

@@ -138,7 +138,11 @@ SurfaceReference ResolveReference::surface(int triangle, int column, int row,
     glm::dvec4 colour =
         glm::dvec4(m.baseColor) * read(t, m.baseColorTexture, true, footprint, s.atTexelBorder);
     if (!t.primitive->colors.empty()) colour *= weighted(t, t.primitive->colors, weights);
-    s.albedo = glm::dvec3(colour);
+    if (m.alphaMode == scene::AlphaMode::blend) s.alpha = std::clamp(colour.w, 0.0, 1.0);
+    const double transmission =
+        m.alphaMode == scene::AlphaMode::mask ? 0 : static_cast<double>(m.transmission);
+    s.through = 1 - s.alpha + s.alpha * transmission * glm::dvec3(colour);
+    s.albedo = (1 - transmission) * glm::dvec3(colour);
     s.emissive = glm::dvec3(m.emissive) *
                  glm::dvec3(read(t, m.emissiveTexture, true, footprint, s.atTexelBorder));
     const auto rough = read(t, m.metallicRoughnessTexture, false, footprint, s.atTexelBorder);

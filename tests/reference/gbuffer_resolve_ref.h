@@ -17,6 +17,8 @@ struct SurfaceReference {
     glm::dvec3 geometric{0}, normal{0};  ///< on the camera's side
     glm::dvec3 albedo{0}, emissive{0};
     double metallic = 0, roughness = 0, depth = 0;
+    double alpha = 1;            ///< 1 where the material is OPAQUE
+    glm::dvec3 through{0};       ///< share of what is behind that passes
     bool atTexelBorder = false;  ///< a small error would read another texel of a nearest filter
 };
 

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cmath>
+#include <stdexcept>
 
 #include "host/gbuffer/gbuffer.h"
 #include "kernels/shared/gbuffer.h"
@@ -14,14 +15,43 @@ std::uint32_t GBufferRun::object(int x, int y) const {
     return std::bit_cast<std::uint32_t>(value(GB_OBJECT, x, y));
 }
 
+namespace {
+
+std::vector<std::vector<ListedFragment>> downloadLists(const gbuffer::FragmentLists& lists) {
+    std::vector<std::vector<ListedFragment>> result(static_cast<std::size_t>(lists.pixels));
+    const auto ends = lists.ends.download(), fragments = lists.fragments.download(),
+               owners = lists.owners.download();
+    const auto coverage = lists.coverage.download();
+    const std::size_t capacity = lists.capacity;
+    std::size_t f = 0;
+    for (std::size_t pixel = 0; pixel < result.size(); ++pixel)
+        for (; f < ends[pixel]; ++f) {
+            if (owners[f] != pixel) throw std::runtime_error("a fragment of another pixel");
+            ListedFragment fragment;
+            fragment.triangle = static_cast<int>(fragments[2 * f + 1]);
+            fragment.depth = std::bit_cast<float>(fragments[2 * f]);
+            fragment.entry = result.size() + f;
+            fragment.alpha = coverage[COVERAGE_ALPHA * capacity + f];
+            for (std::size_t c = 0; c < 3; ++c)
+                fragment.through[static_cast<int>(c)] =
+                    coverage[(COVERAGE_THROUGH + c) * capacity + f];
+            result[pixel].push_back(fragment);
+        }
+    return result;
+}
+
+}  // namespace
+
 GBufferRun runGBuffer(const scene::Scene& scene, const scene::CameraFrame& camera, int width,
                       int height, const glm::dvec3& centre, bool atomics64) {
     geometry::Geometry geometry(program("frame"), scene, centre);
     gbuffer::GBufferPass pass(program("frame"), width, height, atomics64);
     const auto& mesh = geometry.run(scene::poseAt(scene, {}, 0));
-    do pass.run(mesh, camera, centre);
-    while (pass.grew());
     GBufferRun run;
+    for (pass.run(mesh, camera, centre); pass.grew(); ++run.repetitions)
+        pass.run(mesh, camera, centre);
+    if (pass.result().blended) run.lists = downloadLists(*pass.result().blended);
+    run.layers = pass.fragmentCounts().layers;
     run.width = width;
     run.height = height;
     run.stride = static_cast<std::size_t>(pass.result().planeStride);

@@ -9,11 +9,23 @@
 
 namespace penumbra::tests {
 
+/// A blended fragment of the A-buffer.
+struct ListedFragment {
+    int triangle = -1;
+    float depth = 0;        ///< as shared/raster.h
+    std::size_t entry = 0;  ///< pixel of the G-buffer that describes it
+    double alpha = 0;
+    glm::dvec3 through{0};
+};
+
 struct GBufferRun {
     int width = 0, height = 0;
     std::size_t stride = 0;
     std::vector<float> planes;  ///< [GB_PLANES, stride]
     std::uint32_t nonFinite = 0;
+    std::vector<std::vector<ListedFragment>> lists;  ///< per pixel; empty: nothing is blended
+    std::uint32_t layers = 0;                        ///< of the longest list
+    int repetitions = 0;                             ///< until all lists were long enough
     std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
     float value(int plane, int x, int y) const {
         return planes[static_cast<std::size_t>(plane) * stride + at(x, y)];

@@ -94,13 +94,18 @@ ShadowRun runShadows(const scene::Scene& original, const ShadowSetup& setup) {
                                         static_cast<double>(setup.width) / setup.height);
     geometry::Geometry geometry(program("frame"), scene, run.bounds.centre());
     gbuffer::GBufferPass pass(program("frame"), setup.width, setup.height);
-    const auto technique = visibility::findTechnique(setup.technique)
-                               .make({device(), setup.settings, setup.width, setup.height});
-    const auto stride = static_cast<std::uint64_t>(pass.result().planeStride);
+    const auto& mesh = geometry.run(run.pose);
+    // Blended surfaces are rows of the G-buffer: what follows is made for their number
+    do pass.run(mesh, camera, run.bounds.centre());
+    while (pass.grew());
+    const auto& gbuffer = pass.result();
+    const auto technique =
+        visibility::findTechnique(setup.technique)
+            .make({device(), setup.settings, setup.width, gbuffer.rows(), gbuffer.fragmentRows});
+    const auto stride = static_cast<std::uint64_t>(gbuffer.planeStride);
     visibility::Visibility visibility;
     visibility.planes = runtime::Buffer<float>(device(), "visibility", 3 * stride);
     visibility.state = runtime::Buffer<std::uint32_t>(device(), "states", stride);
-    const auto& mesh = geometry.run(run.pose);
     for (;; ++run.retries) {
         if (run.retries > 6) throw std::runtime_error("lists still overflow");
         enqueue(setup, mesh, camera, pass, *technique, visibility, run);

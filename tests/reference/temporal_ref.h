@@ -10,9 +10,11 @@
 
 namespace penumbra::tests {
 
-/// What one frame knew of each pixel.
+/// What one frame knew of each entry of the G-buffer: pixels, then blended fragments.
 struct TemporalFrame {
     int width = 0, height = 0;
+    std::vector<std::vector<std::size_t>> lists;  ///< [pixel] entries of its fragments
+    std::vector<std::size_t> owner;               ///< [entry] pixel
     scene::CameraFrame camera;
     std::vector<std::uint32_t> object;
     std::vector<double> depth;         ///< camera depth, metres
@@ -27,8 +29,9 @@ struct TemporalMean {
     bool doubtful = false;  ///< a step lies so near to a limit that float may decide otherwise
 };
 
-/// Mean of a pixel of the last frame over at most `window` frames, earlier ones clamped to what the
-/// last frame holds among the pixel's 3 x 3 neighbours.
-TemporalMean temporalMean(const std::vector<TemporalFrame>& frames, int window, std::size_t pixel);
+/// Mean of an entry of the last frame over at most `window` frames, earlier ones clamped to what
+/// the last frame holds among the pixel's 3 x 3 neighbours; of a fragment, of the same surface
+/// there.
+TemporalMean temporalMean(const std::vector<TemporalFrame>& frames, int window, std::size_t entry);
 
 }  // namespace penumbra::tests

@@ -26,13 +26,16 @@ struct Motion {
 /// A wall; before it a mesh of three layers, two of them 4 % of their depth apart, so that parallax
 /// uncovers parts of the same object; a plate of its own; and one so near to the wall (0.5 %) that
 /// only its name tells it apart.
-scene::Scene stage() {
+/// `blended`: all but the wall are, and a fourth layer is 0.5 % off the first.
+scene::Scene stage(bool blended) {
     SceneBuilder builder;
     builder.material().doubleSided = true;
     builder.addQuad({-8, -6, -2}, {16, 0, 0}, {0, 12, 0});
     std::vector<glm::vec3> corners;
     std::vector<std::uint32_t> indices;
-    for (const float z : {0.0F, -0.16F, -1.0F})
+    std::vector<float> layers{0.0F, -0.16F, -1.0F};
+    if (blended) layers.push_back(-0.02F);
+    for (const float z : layers)
         for (const glm::vec2 v : {glm::vec2(-1.5F, -1), glm::vec2(0.2F, -1), glm::vec2(0.2F, 1)}) {
             indices.push_back(static_cast<std::uint32_t>(corners.size()));
             corners.emplace_back(v.x - 2 * z, v.y - z, z);
@@ -40,19 +43,26 @@ scene::Scene stage() {
     builder.addMesh(corners, indices);
     builder.addQuad({0.3F, -0.6F, 0.8F}, {0.7F, 0, 0}, {0, 0.9F, 0.2F});
     builder.addQuad({-2.5F, 0.4F, -1.97F}, {2, 0, 0}, {0, 1.2F, 0});
-    return builder.scene();
+    auto& scene = builder.scene();
+    if (!blended) return scene;
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[1].alphaMode = scene::AlphaMode::blend;
+    scene.materials[1].baseColor.w = 0.5F;
+    for (std::size_t i = 1; i < scene.meshes.size(); ++i)
+        scene.meshes[i].primitives[0].material = 1;
+    return scene;
 }
 
 /// Drives geometry, G-buffer and averaging through frames, and keeps what the twin needs.
 class Sequence {
   public:
-    Sequence(int width, int height, int window, Motion motion, int channels)
+    Sequence(int width, int height, int window, Motion motion, int channels, bool blended = false)
         : width_(width),
           height_(height),
           window_(window),
           motion_(motion),
           channels_(channels),
-          scene_(stage()),
+          scene_(stage(blended)),
           geometry_(program("frame"), scene_, glm::dvec3(0)),
           pass_(program("frame"), width, height),
           temporal_(program("frame"), width, height, window) {}
@@ -103,7 +113,17 @@ class Sequence {
         frame.width = width_, frame.height = height_;
         frame.camera = camera;
         std::uniform_real_distribution<float> unit(0, 1);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(width_ * height_); ++i) {
+        const auto pixels = static_cast<std::size_t>(width_ * height_);
+        for (std::size_t i = 0; i < pixels; ++i) frame.owner.push_back(i);
+        frame.lists.resize(pixels);
+        if (const auto* lists = pass_.result().blended) {
+            const auto ends = lists->ends.download(), owners = lists->owners.download();
+            for (std::size_t f = 0; f < ends[pixels - 1]; ++f) {
+                frame.lists[owners[f]].push_back(pixels + f);
+                frame.owner.push_back(owners[f]);
+            }
+        }
+        for (std::size_t i = 0; i < frame.owner.size(); ++i) {
             frame.object.push_back(std::bit_cast<std::uint32_t>(at(GB_OBJECT, i)));
             frame.depth.push_back(at(GB_DEPTH, i));
             frame.previous.emplace_back(at(GB_PREVIOUS, i), at(GB_PREVIOUS + 1, i),
@@ -146,7 +166,7 @@ class Sequence {
         }
         EXPECT_EQ(wrong, 0) << "frame " << number_ - 1 << ", " << width_ << " x " << height_;
         // Of 1 in 500 a step ends within 1/1000 pixel of a border; several steps make a mean
-        EXPECT_LE(doubtful, width_ * height_ / 30 + 1);
+        EXPECT_LE(doubtful, static_cast<int>(counts.size()) / 30 + 1);
         return counts;
     }
 
@@ -206,6 +226,18 @@ TEST(Temporal, CameraAndSurfacesMayMoveAtOnce) {
             for (int frame = 0; frame < 6; ++frame) counts = sequence.next();
             if (width < 33) continue;
             for (const int frames : {1, 2, 3, 4}) EXPECT_GT(countOf(counts, frames), 3U) << frames;
+        }
+}
+
+TEST(Temporal, BlendedFragmentsAreFollowedFromListToList) {
+    for (const bool orthographic : {false, true})
+        for (const auto& [width, height] : kSizes) {
+            Sequence sequence(width, height, 4, {-1, true, orthographic}, 3, true);
+            std::vector<int> counts;
+            for (int frame = 0; frame < 6; ++frame) counts = sequence.next();
+            if (width < 33) continue;
+            const std::vector<int> fragments(counts.begin() + width * height, counts.end());
+            for (const int frames : {1, 4}) EXPECT_GT(countOf(fragments, frames), 10U) << frames;
         }
 }
 

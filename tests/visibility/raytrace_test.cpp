@@ -94,8 +94,7 @@ struct Traced {
           pose(scene::poseAt(scene, {}, 0)),
           geometry(program("frame"), scene, bounds.centre()),
           gbufferPass(program("frame"), 53, 37),
-          bvh(program("frame"), program("raytrace")),
-          pass(program("raytrace"), 53, 37) {
+          bvh(program("frame"), program("raytrace")) {
         auto lit = scene;
         lit.lights = {scene::parseLight(kTexturedLight)};
         light = scene::lightsAt(lit, pose, bounds, scene::parseSampleCount("13", {})).at(0);
@@ -107,14 +106,16 @@ struct Traced {
         do gbufferPass.run(mesh, camera, bounds.centre());
         while (gbufferPass.grew());
         bvh.build(mesh, bounds, bounds.centre());
+        pass = std::make_unique<visibility::RayPass>(program("raytrace"), 53,
+                                                     gbufferPass.result().rows());
         stride = static_cast<std::size_t>(gbufferPass.result().planeStride);
         visibility.planes = runtime::Buffer<float>(device(), "visibility", 3 * stride);
         visibility.state = runtime::Buffer<std::uint32_t>(device(), "states", stride);
     }
     std::vector<float> run(int channels, std::uint32_t onlyState, bool classify) {
         visibility.channels = channels;
-        pass.run({geometry.mesh(), gbufferPass.result(), light, bounds, bounds.centre()}, bvh,
-                 onlyState, classify, visibility);
+        pass->run({geometry.mesh(), gbufferPass.result(), light, bounds, bounds.centre()}, bvh,
+                  onlyState, classify, visibility);
         return visibility.planes.download();
     }
     scene::Scene scene;
@@ -123,7 +124,7 @@ struct Traced {
     geometry::Geometry geometry;
     gbuffer::GBufferPass gbufferPass;
     visibility::Bvh bvh;
-    visibility::RayPass pass;
+    std::unique_ptr<visibility::RayPass> pass;
     scene::AreaLight light;
     std::size_t stride = 0;
     visibility::Visibility visibility;

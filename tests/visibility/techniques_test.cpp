@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What holds for every technique of the list.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
@@ -47,6 +48,10 @@ scene::Scene solids() {
     return builder.scene();
 }
 
+std::uint32_t objectAt(const ShadowRun& run, std::size_t pixel) {
+    return std::bit_cast<std::uint32_t>(run.planes[GB_OBJECT * run.stride + pixel]);
+}
+
 std::pair<float, float> range(const ShadowRun& run) {
     std::pair<float, float> result(2, -1);
     for (std::size_t i = 0; i < run.pixels(); ++i)
@@ -61,6 +66,33 @@ TEST_P(TechniquesTest, WithoutCastersAllIsLit) {
     addFloor(builder);
     const auto run = runShadows(builder.scene(), setup());
     EXPECT_EQ(range(run), std::make_pair(1.0F, 1.0F));
+}
+
+TEST_P(TechniquesTest, BlendedFragmentsAreReceiversAsOpaquePixelsAre) {
+    auto scene = solids();
+    auto& floor = scene.meshes[0].primitives[0];
+    floor.material = static_cast<int>(scene.materials.size());
+    scene.materials.push_back(scene.materials[0]);
+    auto above = setup();
+    above.width = 61;  // fragments begin in the middle of a vector
+    const auto opaque = runShadows(scene, above);
+    scene.materials.back().alphaMode = scene::AlphaMode::blend;
+    scene.materials.back().baseColor.w = 0.6F;  // essm draws receivers above 0.5
+    const auto blended = runShadows(scene, above);
+    // One layer: the fragments of the floor come in the order of their pixels
+    std::size_t fragment = blended.pixels(), dark = 0;
+    for (std::size_t i = 0; i < opaque.pixels(); ++i) {
+        if (objectAt(opaque, i) != 1) continue;
+        ASSERT_TRUE(blended.covered(fragment));
+        EXPECT_EQ(blended.vectorAt(GB_POSITION, fragment), opaque.vectorAt(GB_POSITION, i));
+        // pcss turns its filter from receiver to receiver
+        EXPECT_NEAR(blended.visibility[fragment], opaque.visibility[i],
+                    GetParam() == "pcss" ? 0.1 : 1e-6);
+        dark += opaque.visibility[i] < 0.5F;
+        ++fragment;
+    }
+    EXPECT_GT(dark, 50U);
+    EXPECT_FALSE(blended.covered(fragment));
 }
 
 TEST_P(TechniquesTest, AWideBlockerHidesAllBelowIt) {
