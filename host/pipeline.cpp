@@ -176,8 +176,7 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
     device_ = openDevice(options_);
     planScene();
     makePasses();
-    for (const auto& light : scene::lightsAt(scene_, pose, bounds_, choice))
-        checkLight(light);
+    for (const auto& light : scene::lightsAt(scene_, pose, bounds_, choice)) checkLight(light);
     plannedBytes_ = planFrame();
     std::string key = scene::sceneDigest(scene_);
     for (const auto& [name, value] : header()) key += fmt::format("{}={}\n", name, value);
