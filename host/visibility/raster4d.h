@@ -80,6 +80,10 @@ class LightReceivers {
     static std::uint64_t bytesFor(int width, int height);
 
     const shared::ReceiverParams& image() const { return image_; }
+    /// What sorting takes beside the receivers, from the first frame on.
+    std::uint64_t sortBytes() const {
+        return 2 * static_cast<std::uint64_t>(image_.planeStride) * sizeof(U32) + (1 << 19);
+    }
     const Buffer<float>& planes() const { return planes_; }
     const Buffer<std::uint32_t>& count() const { return count_; }
 
@@ -107,7 +111,7 @@ class Raster4d : public Technique {
     static std::uint64_t plannedBytes(const TechniqueContext& context);
     bool hasDepthMaps() const override { return false; }
     std::uint64_t frameBytes(const Mesh& mesh) const override {
-        return LightTriangles::bytesFor(mesh);
+        return LightTriangles::bytesFor(mesh) + receivers_.sortBytes();
     }
     std::uint64_t maskBytes(const scene::AreaLight& light) const override;
     void check(const scene::AreaLight& light) const override { fitLightGrid(light); }

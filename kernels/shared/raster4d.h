@@ -16,7 +16,7 @@
 //   receivers       float [R4_RECEIVER_PLANES, stride]  sorted; see below
 //   bounds          float [node, R4_BOUNDS, R4_WIDTH]    of 16 triangles, of 16 such nodes, ..
 //   corners         float [node, R4_CORNERS, R4_WIDTH]   of the triangles of the lowest nodes, grid
-//   world           float [node, R4_WORLD, R4_WIDTH]     the same and the normal, re-based world
+//   world           float [triangle, R4_WORLD]           sorted; the same and the normal, re-based world
 //   order           uint [triangle]                      index into the mesh; R4_SURFACE: its opacity varies
 //   masks           uint [rows * words, pixel]           bit j of row i: sample (i, j) is hidden
 #ifndef SHARED_RASTER4D_H

@@ -156,10 +156,8 @@ inline float productDifference(float a, float b, float c, float d) {
     return fma(a, b, -product) + fma(-c, d, product);
 }
 
-inline void storeVector(float3 v, global float* out) {
-    out[0] = v.x;
-    out[R4_WIDTH] = v.y;
-    out[2 * R4_WIDTH] = v.z;
+inline float component(float3 v, int axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
 /// One work-item per slot of the lowest nodes: its triangle and its bounds; -infinity where there is none.
@@ -178,18 +176,20 @@ kernel void raster4d_triangles(const Raster4dParams params, global const float* 
     if (slot < params.casterCount && keys[slot] < R4_KEY_NONE - 1u) {
         float3 v[3];
         global float* out = corners + slot / R4_WIDTH * (R4_CORNERS * R4_WIDTH) + slot % R4_WIDTH;
-        global float* worldOut = world + slot / R4_WIDTH * (R4_WORLD * R4_WIDTH) + slot % R4_WIDTH;
+        global float* worldOut = world + (size_t)slot * R4_WORLD;
         float3 w[3];
         for (int i = 0; i < 3; ++i) {
             v[i] = grid[indices[3 * triangle + i]].xyz;
             w[i] = load3(positions, indices[3 * triangle + i]);
-            storeVector(v[i], out + 3 * i * R4_WIDTH);
-            storeVector(w[i], worldOut + 3 * i * R4_WIDTH);
+            for (int axis = 0; axis < 3; ++axis) {
+                out[(3 * i + axis) * R4_WIDTH] = component(v[i], axis);
+                worldOut[3 * i + axis] = component(w[i], axis);
+            }
         }
         const float3 a = w[1] - w[0], b = w[2] - w[0];
-        storeVector((float3)(productDifference(a.y, b.z, a.z, b.y), productDifference(a.z, b.x, a.x, b.z),
-                             productDifference(a.x, b.y, a.y, b.x)),
-                    worldOut + 9 * R4_WIDTH);
+        worldOut[9] = productDifference(a.y, b.z, a.z, b.y);
+        worldOut[10] = productDifference(a.z, b.x, a.x, b.z);
+        worldOut[11] = productDifference(a.x, b.y, a.y, b.x);
         boundTriangle(&params, v, box);
         const uint flags = draws[triangleDraw[triangle]].flags;
         order[slot] = triangle | (flags & (DRAW_MASK | DRAW_BLEND) ? R4_SURFACE : 0u);

@@ -202,14 +202,12 @@ inline void listPairs(const Raster4dParams* p, const MaskReceiver* r, const Tria
 inline void rasterLanes(const Raster4dParams* p, const Raster4dInputs* in, const MaskReceiver* r,
                         const TriangleList* list, const uint* codes, int count, uint* mask) {
     int offset[LANES];
-    for (int lane = 0; lane < LANES; ++lane) {
-        const uint slot = list->index[lane < count ? PAIR_AT(codes[lane]) : PAIR_AT(codes[0])];
-        offset[lane] = (int)(slot / R4_WIDTH * (R4_WORLD * R4_WIDTH) + slot % R4_WIDTH);
-    }
+    for (int lane = 0; lane < LANES; ++lane)
+        offset[lane] = (int)list->index[PAIR_AT(codes[lane < count ? lane : 0])] * R4_WORLD;
     const VI offsets = V_LOAD(offset, 0);
     MaskTriangles triangles;
 #pragma unroll
-    for (int k = 0; k < R4_WORLD; ++k) triangles.at[k] = V_GATHER_(VF, in->world + k * R4_WIDTH, offsets);
+    for (int k = 0; k < R4_WORLD; ++k) triangles.at[k] = V_GATHER_(VF, in->world + k, offsets);
     const MaskLines lines = maskLines(p, &r->world, &triangles);
     MaskEnds ends;
     maskEnds(&lines, &ends);
