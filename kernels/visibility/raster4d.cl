@@ -48,7 +48,8 @@ inline uint gridKey(const Raster4dParams* p, float3 q) {
     const float cells = (float)(1 << R4_KEY_BITS), z = max(q.z, 1e-6f);
     const uint x = (uint)(keyAxis((q.x / z - p->keyCentre.x) * p->keyScale.x) * cells);
     const uint y = (uint)(keyAxis((q.y / z - p->keyCentre.y) * p->keyScale.y) * cells);
-    const uint d = (uint)(keyAxis((q.z - p->keyCentre.z) * p->keyScale.z) * cells);
+    // Farthest from the light first: what is close to receivers hides most, and full masks end a receiver's work
+    const uint d = (uint)(keyAxis((p->keyCentre.z - q.z) * p->keyScale.z) * cells);
     return spreadKey(x) | spreadKey(y) << 1 | spreadKey(d) << 2;
 }
 
