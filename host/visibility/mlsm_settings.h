@@ -8,7 +8,7 @@ namespace penumbra::visibility {
 /// automatic: back faces of edge-closed meshes that are opaque, both faces of all others.
 enum class Faces { automatic, back, front, all };
 enum class ListBuild { array, list };
-enum class Accumulate { add, multiply, max };  // MLSM_*
+enum class Accumulate { add, multiply, max, cover };  // MLSM_*
 
 struct MlsmSettings : MapSettings, BiasSettings {
     Faces faces = Faces::automatic;
@@ -16,11 +16,13 @@ struct MlsmSettings : MapSettings, BiasSettings {
     int layers = 0;
     bool join = false;
     float epsilon = 2;
-    Accumulate accumulateMerge = Accumulate::add, accumulateLookup = Accumulate::add;
+    Accumulate accumulateMerge = Accumulate::cover, accumulateLookup = Accumulate::add;
     int stackFrom = 128;
     int maxLevel = 13;
     int subsampleLevels = 0;
     bool antialias = false;
+    /// Fragments lie on their surfaces at the texels' centres: no slope is needed.
+    MlsmSettings() { slopeBias = 0; }
 
     template <typename Row>
     void rows(Row& row) {
@@ -37,8 +39,8 @@ struct MlsmSettings : MapSettings, BiasSettings {
         row.flag("join", join, "join fragments within epsilon at the base level already");
         row.number("epsilon", epsilon, 0.0F, 4096.0F, "texels",
                    "depth within which fragments are merged, in texels of their level");
-        row.choice("accumulateMerge", accumulateMerge, {"add", "multiply", "max"},
-                   "opacities of one list as lists are merged");
+        row.choice("accumulateMerge", accumulateMerge, {"add", "multiply", "max", "cover"},
+                   "opacities of one list as lists are merged; cover: added until all is covered");
         row.choice("accumulateLookup", accumulateLookup, {"add", "multiply"},
                    "opacities before a receiver: occluders beside one another, or overlapping ones");
         row.number("stackFrom", stackFrom, 0, 8192, "texels",

@@ -17,9 +17,11 @@ SHARED_BEGIN
 // Floats of a fragment with 1 or 3 channels
 #define MLSM_VALUES(channels) ((channels) == 1 ? 2 : 5)
 
+// Accumulation
 #define MLSM_ADD 0
 #define MLSM_MULTIPLY 1
 #define MLSM_MAX 2
+#define MLSM_COVER 3  // adds until all is covered; what covers more lies behind and multiplies
 
 #define MLSM_WEIGHT 65535  // of a receiver's visibility, as an integer
 

@@ -45,8 +45,9 @@ inline int mlsmMergeNext(MlsmMerge* m, global const float* restrict fragments, f
         farthest = m->depth[i];
         sum += farthest;
         ++members;
-        for (int c = 0; c + 1 < values; ++c)
-            opacity[i][c] = mlsmAccumulate(accumulate, opacity[i][c], fragment[c + 1]);
+        float value[4];
+        for (int c = 0; c + 1 < values; ++c) value[c] = fragment[c + 1];
+        mlsmAccumulate(accumulate, opacity[i], value, values);
         m->next[i] += 1;
         m->depth[i] = mlsmDepth(fragments, m->next[i], m->end[i], values);
         i = mlsmNearest(m);

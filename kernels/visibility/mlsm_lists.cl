@@ -153,10 +153,11 @@ inline uint mlsmJoin(const MlsmParams* p, global float* list, uint count, int va
         float farthest = nearest;
         uint members = 1;
         for (++i; i < count && list[(size_t)i * values] >= limit; ++i, ++members) {
+            float value[4];
+            for (int k = 1; k < values; ++k) value[k - 1] = list[(size_t)i * values + k];
             farthest = list[(size_t)i * values];
             joined[0] += farthest;
-            for (int k = 1; k < values; ++k)
-                joined[k] = mlsmAccumulate(p->accumulate, joined[k], list[(size_t)i * values + k]);
+            mlsmAccumulate(p->accumulate, joined + 1, value, values);
         }
         joined[0] = clamp(joined[0] / (float)members, farthest, nearest);
         for (int k = 0; k < values; ++k) list[(size_t)kept * values + k] = joined[k];

@@ -8,8 +8,8 @@
 //   place on each level. Bilinear reads of four weights instead add up to less than 1 on sloping surfaces.
 // - Fragments count only before the receiver's plane at their own texel, so that a sloping receiver does not hide
 //   itself. The part of the light below that plane is hidden by the receiver.
-// - Coverage adds up until nothing of the light is left; what covers more lies behind something, and multiplies. Where
-//   all is opaque that is the paper's sum, clamped.
+// - Coverage adds up until all is covered; what covers more lies behind that, and multiplies. Where all is opaque this
+//   is the paper's sum, clamped.
 #include "lib/lanes.h"
 #include "shared/mlsm.h"
 #include "shared/multi_view.h"
@@ -26,10 +26,12 @@ typedef struct {
     VF footprint;     ///< of the pixel, base texels
 } MlsmReceiver;
 
-/// What is known of the light of LANES receivers.
+/// What is known of the light of LANES receivers. Coverage adds up to a layer; a layer that covers all is put before
+/// what is behind it, and multiplies.
 typedef struct {
-    VF uncovered;   ///< share that no fragment covers yet
-    VF through[3];  ///< share that comes through, per channel
+    VF uncovered;   ///< share that the layer at hand leaves open
+    VF layer[3];    ///< share that comes through it, per channel
+    VF through[3];  ///< share that comes through the layers before it
 } MlsmLight;
 
 /// Four lists of a level around LANES places.
@@ -105,17 +107,18 @@ inline void mlsmTake(MlsmLight* light, int accumulate, VF hat, VF coverage, cons
         for (int c = 0; c < channels; ++c) light->through[c] *= max(1.0f - taken[c] * hat, (VF)0.0f);
         return;
     }
-    const VF beside = min(coverage * hat, light->uncovered), behind = coverage * hat - beside;
+    const VF covered = min(coverage * hat, light->uncovered + 1.0f), beside = min(covered, light->uncovered);
+    const VF behind = covered - beside, inverse = 1.0f / max(coverage, (VF)1e-30f);
     light->uncovered -= beside;
-    const VF inverse = 1.0f / max(coverage, (VF)1e-30f);
+    const VI full = V_MASK(light->uncovered <= 0.0f);
     for (int c = 0; c < channels; ++c) {
         const VF opacity = min(taken[c] * inverse, (VF)1.0f);
-        light->through[c] = max(fma(-beside, opacity, light->through[c]), (VF)0.0f);
-        if (channels == 1) continue;  // opaque: what is covered is hidden
-        // Up to two surfaces behind others at once
-        const VF half_ = max(1.0f - 0.5f * behind * opacity, (VF)0.0f);
-        light->through[c] *= half_ * half_;
+        light->layer[c] = max(fma(-beside, opacity, light->layer[c]), (VF)0.0f);
+        if (channels == 1) continue;  // opaque: nothing comes through a full layer
+        light->through[c] *= V_SELECT((VF)1.0f, light->layer[c], full);
+        light->layer[c] = V_SELECT(light->layer[c], max(fma(-behind, opacity, (VF)1.0f), (VF)0.0f), full);
     }
+    if (channels == 3) light->uncovered = V_SELECT(light->uncovered, 1.0f - behind, full);
 }
 
 /// Adds up what one level takes around (u, v).
@@ -230,7 +233,7 @@ inline void mlsmLookup(const MultiViewParams* light, const LookupParams* bias, c
     const MlsmReceiver r = mlsmReceiverAt(light, bias, lookup, stride, pixel, tested, receiver, gradientX, gradientY, facing);
     VF lit[3] = {(VF)0.0f, (VF)0.0f, (VF)0.0f};
     for (int part = 0; part < lookup->parts; ++part) {
-        MlsmLight seen = {(VF)1.0f, {(VF)1.0f, (VF)1.0f, (VF)1.0f}};
+        MlsmLight seen = {(VF)1.0f, {(VF)1.0f, (VF)1.0f, (VF)1.0f}, {(VF)1.0f, (VF)1.0f, (VF)1.0f}};
         const float offset = (float)part - 0.5f * (float)(lookup->parts - 1);
         for (int level = p->levels - 1; level >= 0; --level) {
             // Towards the part's centre, as far as what the level answers for is away
@@ -243,7 +246,7 @@ inline void mlsmLookup(const MultiViewParams* light, const LookupParams* bias, c
             if (lookup->parts == 1 && !V_ANY(some)) break;
             mlsmLevel(p, lookup, level, &r, &taps, nearest, some, fragments, &seen, values);
         }
-        for (int c = 0; c < channels; ++c) lit[c] += seen.through[c];
+        for (int c = 0; c < channels; ++c) lit[c] += seen.through[c] * seen.layer[c];
     }
     const float kx = light->halfWidth * light->focal / light->near, ky = light->halfHeight * light->focal / light->near;
     const VF above = mlsmAbove(facing, gradientX * kx, gradientY * ky);
