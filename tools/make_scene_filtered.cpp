@@ -199,7 +199,7 @@ void makeFoliage(GltfWriter& writer) {
     addFloor(writer, 8);
     const int bark = writer.addMaterial("bark", {0.27F, 0.2F, 0.14F}, 0.95F);
     const int leaf = addMaskedMaterial(writer, "leaf", leafPicture());
-    const TreeParts tree = makeTreeParts(4200);
+    const TreeParts tree = makeTreeParts(2400);
     addProp(writer, {{"name", "trunk"}}, withNormals(tree.wood, 70), bark);
     addProp(writer, {{"name", "leaves"}}, tree.leaves, leaf);
     addCamera(writer, {2.9F, 2.6F, 5.4F}, {0.5F, 1.0F, 0}, 0.72F);

@@ -8,6 +8,8 @@
 //   place on each level. Bilinear reads of four weights instead add up to less than 1 on sloping surfaces.
 // - Fragments count only before the receiver's plane at their own texel, so that a sloping receiver does not hide
 //   itself. The part of the light below that plane is hidden by the receiver.
+// - accumulateLookup=multiply adds what two levels make of a surface between their widths, and multiplies only what
+//   belongs to other widths: the paper's product of all lets light through whatever two levels share.
 // - Coverage adds up until all is covered; what covers more lies behind that, and multiplies. Where all is opaque this
 //   is the paper's sum, clamped.
 #include "lib/lanes.h"
@@ -32,6 +34,9 @@ typedef struct {
     VF uncovered;   ///< share that the layer at hand leaves open
     VF layer[3];    ///< share that comes through it, per channel
     VF through[3];  ///< share that comes through the layers before it
+    // With accumulateLookup=multiply: what comes through fragments of this level that the level below, or the one above
+    // sees too, and what the one above takes by those fragments
+    VF finer[3], coarser[3], above[3];
 } MlsmLight;
 
 /// Four lists of a level around LANES places.
@@ -101,10 +106,16 @@ inline VF mlsmHat(const MlsmParams* p, int level, VF size) {
     return hat;
 }
 
-/// Takes from the light what fragments of this coverage take; taken[]: per channel, times coverage.
-inline void mlsmTake(MlsmLight* light, int accumulate, VF hat, VF coverage, const VF* taken, const int channels) {
+/// Takes from the light what fragments of this coverage take; taken[]: per channel, times coverage; finer: lanes whose
+/// filter is smaller than the level's width.
+inline void mlsmTake(MlsmLight* light, int accumulate, VI finer, VF hat, VF coverage, const VF* taken,
+                     const int channels) {
     if (accumulate == MLSM_MULTIPLY) {
-        for (int c = 0; c < channels; ++c) light->through[c] *= max(1.0f - taken[c] * hat, (VF)0.0f);
+        for (int c = 0; c < channels; ++c) {
+            const VF through = max(1.0f - taken[c] * hat, (VF)0.0f);
+            light->finer[c] *= V_SELECT((VF)1.0f, through, finer);
+            light->coarser[c] *= V_SELECT(through, (VF)1.0f, finer);
+        }
         return;
     }
     const VF covered = min(coverage * hat, light->uncovered + 1.0f), beside = min(covered, light->uncovered);
@@ -119,6 +130,25 @@ inline void mlsmTake(MlsmLight* light, int accumulate, VF hat, VF coverage, cons
         light->layer[c] = V_SELECT(light->layer[c], max(fma(-behind, opacity, (VF)1.0f), (VF)0.0f), full);
     }
     if (channels == 3) light->uncovered = V_SELECT(light->uncovered, 1.0f - behind, full);
+}
+
+inline MlsmLight mlsmWholeLight(void) {
+    MlsmLight light;
+    light.uncovered = (VF)1.0f;
+    for (int c = 0; c < 3; ++c) {
+        light.layer[c] = light.through[c] = light.finer[c] = light.coarser[c] = (VF)1.0f;
+        light.above[c] = (VF)0.0f;
+    }
+    return light;
+}
+
+/// After a level: closes the filter sizes between it and the level above.
+inline void mlsmMultiplyLevel(MlsmLight* light, const int channels) {
+    for (int c = 0; c < channels; ++c) {
+        light->through[c] *= 1.0f - min(light->above[c] + (1.0f - light->coarser[c]), (VF)1.0f);
+        light->above[c] = 1.0f - light->finer[c];
+        light->finer[c] = light->coarser[c] = (VF)1.0f;
+    }
 }
 
 /// Adds up what one level takes around (u, v).
@@ -166,7 +196,7 @@ inline void mlsmLevel(const MlsmParams* p, const MlsmLookupParams* lookup, int l
         const VF depth = depths / max(coverage, (VF)1e-30f);
         const VF size = max((depth - r->w) * lookup->reach, r->footprint);
         const VF hat = V_SELECT((VF)0.0f, mlsmHat(p, level, size), V_MASK(coverage > 0.0f));
-        mlsmTake(light, lookup->accumulate, hat, coverage, taken, channels);
+        mlsmTake(light, lookup->accumulate, V_MASK(size < p->width[level]), hat, coverage, taken, channels);
     }
 }
 
@@ -233,7 +263,7 @@ inline void mlsmLookup(const MultiViewParams* light, const LookupParams* bias, c
     const MlsmReceiver r = mlsmReceiverAt(light, bias, lookup, stride, pixel, tested, receiver, gradientX, gradientY, facing);
     VF lit[3] = {(VF)0.0f, (VF)0.0f, (VF)0.0f};
     for (int part = 0; part < lookup->parts; ++part) {
-        MlsmLight seen = {(VF)1.0f, {(VF)1.0f, (VF)1.0f, (VF)1.0f}, {(VF)1.0f, (VF)1.0f, (VF)1.0f}};
+        MlsmLight seen = mlsmWholeLight();
         const float offset = (float)part - 0.5f * (float)(lookup->parts - 1);
         for (int level = p->levels - 1; level >= 0; --level) {
             // Towards the part's centre, as far as what the level answers for is away
@@ -245,8 +275,9 @@ inline void mlsmLookup(const MultiViewParams* light, const LookupParams* bias, c
             // The four lists of a level hold all that those of finer ones do
             if (lookup->parts == 1 && !V_ANY(some)) break;
             mlsmLevel(p, lookup, level, &r, &taps, nearest, some, fragments, &seen, values);
+            if (lookup->accumulate == MLSM_MULTIPLY) mlsmMultiplyLevel(&seen, channels);
         }
-        for (int c = 0; c < channels; ++c) lit[c] += seen.through[c] * seen.layer[c];
+        for (int c = 0; c < channels; ++c) lit[c] += seen.through[c] * seen.layer[c] * (1.0f - seen.above[c]);
     }
     const float kx = light->halfWidth * light->focal / light->near, ky = light->halfHeight * light->focal / light->near;
     const VF above = mlsmAbove(facing, gradientX * kx, gradientY * ky);
