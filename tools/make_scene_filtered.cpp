@@ -203,7 +203,7 @@ void makeFoliage(GltfWriter& writer) {
     addProp(writer, {{"name", "trunk"}}, withNormals(tree.wood, 70), bark);
     addProp(writer, {{"name", "leaves"}}, tree.leaves, leaf);
     addCamera(writer, {2.9F, 2.6F, 5.4F}, {0.5F, 1.0F, 0}, 0.72F);
-    addLight(writer, {{-3, 5.5F, 2.2F}, {0, 1.3F, 0}, 0.5, 700});
+    addLight(writer, {{-3, 5.5F, 2.2F}, {0, 1.3F, 0}, 0.25, 2800});
 }
 
 void makeFence(GltfWriter& writer) {

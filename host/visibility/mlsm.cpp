@@ -27,6 +27,9 @@ class Mlsm::Source : public MapSource {
         reach = mlsmReachOf(view);
         levels = planMlsmLevels(settings_, reach.size);
         levels.params.channels = mesh_->hasBlend ? 3 : 1;
+        levels.params.accumulate =
+            accumulationOf(settings_.accumulateMerge, mesh_->hasMask, MLSM_COVER);
+        accumulate = accumulationOf(settings_.accumulateLookup, mesh_->hasMask, MLSM_ADD);
         // A texel's side is near / focal of its distance: the share of near / z that depth falls by
         // over one
         levels.params.epsilon = settings_.epsilon / view.params.focal;
@@ -51,6 +54,7 @@ class Mlsm::Source : public MapSource {
     MlsmLists lists;
     MlsmLevels levels;
     MlsmReach reach;
+    int accumulate = MLSM_ADD;  ///< in the lookup
 
   private:
     MlsmFilter filter_;
@@ -64,7 +68,8 @@ class Mlsm::Reader : public MapReader {
     int channels() const override { return source_->levels.params.channels; }
     int weight() const override { return MLSM_WEIGHT; }
     void read(const LightView& view, const MapBatch&, ReceiverImage& receivers) override {
-        lookup_.run(view, source_->reach, source_->levels.params, source_->lists.map(), receivers);
+        lookup_.run(view, source_->reach, source_->accumulate, source_->levels.params,
+                    source_->lists.map(), receivers);
     }
 
   private:

@@ -57,7 +57,6 @@ MlsmLevels planMlsmLevels(const MlsmSettings& settings, double largest) {
     p.resolution = settings.resolution;
     p.layers = settings.layers;
     p.join = settings.join ? 1 : 0;
-    p.accumulate = static_cast<int>(settings.accumulateMerge);
     Level level{settings.resolution};
     for (;;) {
         const int i = p.levels++;

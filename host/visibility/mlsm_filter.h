@@ -10,7 +10,7 @@ namespace penumbra::visibility {
 
 /// Levels and how each is made of the one below.
 struct MlsmLevels {
-    shared::MlsmParams params{};  ///< all but channels, capacity and what concerns one list
+    shared::MlsmParams params{};  ///< all but capacity and what depends on scene and light
     std::vector<shared::MlsmFilterParams> steps;  ///< [level - 1]
     std::uint64_t lists = 0;                      ///< of all levels
 };

@@ -30,7 +30,7 @@ MlsmLookup::MlsmLookup(const runtime::Program& mlsm, const MlsmSettings& setting
       lookup_(mlsm, "mlsm_lookup"),
       colour_(mlsm, "mlsm_lookup_colour") {}
 
-void MlsmLookup::run(const LightView& view, const MlsmReach& reach,
+void MlsmLookup::run(const LightView& view, const MlsmReach& reach, int accumulate,
                      const shared::MlsmParams& params, const MlsmMap& map,
                      ReceiverImage& receivers) {
     shared::LookupParams bias{};
@@ -40,7 +40,7 @@ void MlsmLookup::run(const LightView& view, const MlsmReach& reach,
     lookup.stepX = static_cast<float>(reach.stepX);
     lookup.stepY = static_cast<float>(reach.stepY);
     lookup.parts = reach.parts;
-    lookup.accumulate = static_cast<int>(settings_.accumulateLookup);
+    lookup.accumulate = accumulate;
     lookup.antialias = settings_.antialias ? 1 : 0;
     lookup.receiverWidth = receivers.width;
     lookup.pixelStep = settings_.halfResolution ? 2 : 1;

@@ -20,8 +20,8 @@ class MlsmLookup {
     MlsmLookup(const runtime::Program& mlsm, const MlsmSettings& settings);
     /// Enqueues adding what is hidden to receivers.hidden [channels, stride], in 1 / MLSM_WEIGHT.
     /// Kernels: kernels/visibility/mlsm_lookup.cl
-    void run(const LightView& view, const MlsmReach& reach, const shared::MlsmParams& params,
-             const MlsmMap& map, ReceiverImage& receivers);
+    void run(const LightView& view, const MlsmReach& reach, int accumulate,
+             const shared::MlsmParams& params, const MlsmMap& map, ReceiverImage& receivers);
 
   private:
     using Lookup = runtime::Kernel<shared::MultiViewParams, shared::LookupParams,

@@ -2,13 +2,16 @@
 // Settings of filtered multi-layer shadow maps.
 #pragma once
 #include "host/visibility/multi_view_settings.h"
+#include "kernels/shared/mlsm.h"
 
 namespace penumbra::visibility {
 
 /// automatic: back faces of edge-closed meshes that are opaque, both faces of all others.
 enum class Faces { automatic, back, front, all };
 enum class ListBuild { array, list };
-enum class Accumulate { add, multiply, max, cover };  // MLSM_*
+/// automatic: leaves and other alpha-tested surfaces overlap at random, so that opacities multiply
+/// where there are any; solids are added up, until all is covered.
+enum class Accumulate { automatic, add, multiply, max, cover };
 
 struct MlsmSettings : MapSettings, BiasSettings {
     Faces faces = Faces::automatic;
@@ -16,7 +19,7 @@ struct MlsmSettings : MapSettings, BiasSettings {
     int layers = 0;
     bool join = false;
     float epsilon = 2;
-    Accumulate accumulateMerge = Accumulate::cover, accumulateLookup = Accumulate::add;
+    Accumulate accumulateMerge = Accumulate::automatic, accumulateLookup = Accumulate::automatic;
     int stackFrom = 128;
     int maxLevel = 13;
     int subsampleLevels = 0;
@@ -39,10 +42,12 @@ struct MlsmSettings : MapSettings, BiasSettings {
         row.flag("join", join, "join fragments within epsilon at the base level already");
         row.number("epsilon", epsilon, 0.0F, 4096.0F, "texels",
                    "depth within which fragments are merged, in texels of their level");
-        row.choice("accumulateMerge", accumulateMerge, {"add", "multiply", "max", "cover"},
-                   "opacities of one list as lists are merged; cover: added until all is covered");
-        row.choice("accumulateLookup", accumulateLookup, {"add", "multiply"},
-                   "opacities before a receiver: occluders beside one another, or overlapping ones");
+        row.choice("accumulateMerge", accumulateMerge, {"auto", "add", "multiply", "max", "cover"},
+                   "opacities of one list as lists are merged; cover: added until all is covered; "
+                   "auto: multiply where anything is alpha-tested, else cover");
+        row.choice("accumulateLookup", accumulateLookup, {"auto", "add", "multiply"},
+                   "opacities before a receiver: occluders beside one another, or overlapping ones; "
+                   "auto: multiply where anything is alpha-tested, else add");
         row.number("stackFrom", stackFrom, 0, 8192, "texels",
                    "levels of this size and smaller become a stack of equal size (Y-map); 0: none");
         row.number("maxLevel", maxLevel, 0, 13, "",
@@ -53,5 +58,11 @@ struct MlsmSettings : MapSettings, BiasSettings {
         BiasSettings::rows(row);
     }
 };
+
+/// MLSM_* of a setting; `fallback`: what automatic means for a scene of solids.
+inline int accumulationOf(Accumulate how, bool hasMask, int fallback) {
+    if (how == Accumulate::automatic) return hasMask ? MLSM_MULTIPLY : fallback;
+    return static_cast<int>(how) - 1;
+}
 
 }  // namespace penumbra::visibility
