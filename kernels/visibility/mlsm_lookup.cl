@@ -6,6 +6,8 @@
 //   variance is that of a box of `width`. The paper takes the box alone, which makes shadows softer than they are.
 // - The four lists are merged on the way, so that a surface has one depth and with it one weight at the receiver's
 //   place on each level. Bilinear reads of four weights instead add up to less than 1 on sloping surfaces.
+// - Levels see a surface at slightly different depths, so that their hats need not add up to 1. No more comes through
+//   than through the levels that answer, each with whole weights: what all of them see covered stays hidden.
 // - Fragments count only before the receiver's plane at their own texel, so that a sloping receiver does not hide
 //   itself. The part of the light below that plane is hidden by the receiver.
 // - accumulateLookup=multiply adds what two levels make of a surface between their widths, and multiplies only what
@@ -18,6 +20,8 @@
 
 // Four lists' fragments within this share of the level's filter size are one surface
 #define MLSM_CLUSTER 0.5f
+// Fragments down to this share of the smallest filter size that a level answers for belong to what it sees
+#define MLSM_BEHIND 0.5f
 
 /// LANES receivers in the central view.
 typedef struct {
@@ -38,6 +42,13 @@ typedef struct {
     // sees too, and what the one above takes by those fragments
     VF finer[3], coarser[3], above[3];
 } MlsmLight;
+
+/// What comes through at most: as much as through any of the levels that answer for something.
+typedef struct {
+    VF most[3];
+    VF above[3];  ///< through the level above, each fragment with its whole weight
+    VI shares;    ///< lanes where the level above leaves a part of its answer to this one
+} MlsmBound;
 
 /// Four lists of a level around LANES places.
 typedef struct {
@@ -151,53 +162,99 @@ inline void mlsmMultiplyLevel(MlsmLight* light, const int channels) {
     }
 }
 
-/// Adds up what one level takes around (u, v).
+/// What comes through where each fragment has its whole weight, in channel c.
+inline VF mlsmThrough(const MlsmLight* light, int accumulate, int c) {
+    return accumulate == MLSM_MULTIPLY ? light->finer[c] : light->through[c] * light->layer[c];
+}
+
+/// Merges the next fragments of four lists: of each the first, where it is near the nearest one. Returns their depth.
+inline VF mlsmNext(MlsmTaps* taps, VF front, float together, VI live, global const float* restrict fragments,
+                   const int values, VF* coverage, VF* taken) {
+    const VF back = max(front - together, (VF)0.0f);
+    VF sum = (VF)0.0f, depths = (VF)0.0f;
+    for (int c = 0; c < 3; ++c) taken[c] = (VF)0.0f;
+    for (int i = 0; i < 4; ++i) {
+        const VI takes = live & V_MASK(taps->depth[i] >= back);
+        const VI at = V_SELECT((VI)0, taps->next[i] * values, takes);
+        const VF weight = V_SELECT((VF)0.0f, taps->weight[i], takes);
+        const VF covered = weight * V_GATHER_(VF, fragments + 1, at);
+        sum += covered;
+        depths = fma(covered, taps->depth[i], depths);
+        for (int c = 0; c + 2 < values; ++c) taken[c] += weight * V_GATHER_(VF, fragments + 2 + c, at);
+        taps->next[i] -= takes;
+        const VF next = mlsmDepthOf(fragments, taps->next[i], taps->end[i], taps->limit[i], values);
+        taps->depth[i] = V_SELECT(taps->depth[i], next, takes);
+    }
+    if (values == 2) taken[0] = sum;
+    *coverage = sum;
+    return depths / max(sum, (VF)1e-30f);
+}
+
+/// Bounds what comes through by a level; whole: what comes through it, each fragment with its whole weight; answers:
+/// lanes where it has a say; up, down: where it leaves a part to the level above, and to the one below.
+inline void mlsmBoundBy(MlsmBound* bound, const VF* whole, VI answers, VI up, VI down, const int channels) {
+    answers |= bound->shares;
+    for (int c = 0; c < channels; ++c) {
+        bound->most[c] = V_SELECT(bound->most[c], max(bound->most[c], whole[c]), answers);
+        bound->most[c] = V_SELECT(bound->most[c], max(bound->most[c], bound->above[c]), up);
+        bound->above[c] = whole[c];
+    }
+    bound->shares = down;
+}
+
+/// Adds up what one level takes around a place.
 inline void mlsmLevel(const MlsmParams* p, const MlsmLookupParams* lookup, int level, const MlsmReceiver* r,
                       MlsmTaps* taps, VF nearest, VI active, global const float* restrict fragments, MlsmLight* light,
-                      const int values) {
+                      MlsmBound* bound, const int values) {
     const int channels = values == 2 ? 1 : 3;
     const float perDepth = lookup->reach > 0.0f ? 1.0f / lookup->reach : 0.0f;
     const float together = MLSM_CLUSTER * p->width[level] * perDepth;
-    // Depths whose filter sizes this level answers for
+    // Depths whose filter sizes this level answers for, and a little behind them
     VF farthest = (VF)0.0f;
     if (level > 0)
-        farthest = V_SELECT(r->w + p->width[level - 1] * perDepth, (VF)0.0f, V_MASK(r->footprint > p->width[level - 1]));
+        farthest = V_SELECT(r->w + MLSM_BEHIND * p->width[level - 1] * perDepth, (VF)0.0f,
+                            V_MASK(r->footprint > p->width[level - 1]));
     active &= V_MASK(nearest > farthest);
-    if (!V_ANY(active)) return;
+    VF through[3] = {(VF)1.0f, (VF)1.0f, (VF)1.0f};
+    if (!V_ANY(active)) {
+        mlsmBoundBy(bound, through, (VI)0, (VI)0, (VI)0, channels);
+        if (lookup->accumulate == MLSM_MULTIPLY) mlsmMultiplyLevel(light, channels);
+        return;
+    }
+    // What lies before them counts towards the bound alone
+    VF open = bound->most[0];
+    for (int c = 1; c < channels; ++c) open = min(open, bound->most[c]);
     if (level + 1 < p->levels) {
         const VF first = r->w + (p->width[level + 1] * perDepth + together);
-        if (V_ANY(active & V_MASK(nearest > first)))
-            for (int i = 0; i < 4; ++i)
-                taps->next[i] = mlsmSearch(fragments, taps->next[i], taps->end[i], first, values);
+        const VI skips = active & V_MASK(nearest > first) & V_MASK(open >= 1.0f);
+        if (V_ANY(skips))
+            for (int i = 0; i < 4; ++i) {
+                const VI from = mlsmSearch(fragments, taps->next[i], V_SELECT(taps->next[i], taps->end[i], skips), first, values);
+                taps->next[i] = V_SELECT(taps->next[i], from, skips);
+            }
     }
     for (int i = 0; i < 4; ++i)
         taps->depth[i] = mlsmDepthOf(fragments, taps->next[i], taps->end[i], taps->limit[i], values);
+    MlsmLight whole = mlsmWholeLight();
+    VI answers = (VI)0, up = (VI)0, down = (VI)0;
     for (;;) {
         const VF front = max(max(taps->depth[0], taps->depth[1]), max(taps->depth[2], taps->depth[3]));
-        VI live = active & V_MASK(front > farthest);
-        if (channels == 1) live &= V_MASK(light->uncovered > 0.0f);
+        const VI live = active & V_MASK(front > farthest);
         if (!V_ANY(live)) break;
-        const VF back = max(front - together, (VF)0.0f);
-        VF coverage = (VF)0.0f, depths = (VF)0.0f, taken[3] = {(VF)0.0f, (VF)0.0f, (VF)0.0f};
-        for (int i = 0; i < 4; ++i) {
-            const VI takes = live & V_MASK(taps->depth[i] >= back);
-            const VI at = V_SELECT((VI)0, taps->next[i] * values, takes);
-            const VF weight = V_SELECT((VF)0.0f, taps->weight[i], takes);
-            const VF covered = weight * V_GATHER_(VF, fragments + 1, at);
-            coverage += covered;
-            depths = fma(covered, taps->depth[i], depths);
-            if (channels == 3)
-                for (int c = 0; c < 3; ++c) taken[c] += weight * V_GATHER_(VF, fragments + 2 + c, at);
-            taps->next[i] -= takes;
-            taps->depth[i] = V_SELECT(taps->depth[i],
-                mlsmDepthOf(fragments, taps->next[i], taps->end[i], taps->limit[i], values), takes);
-        }
-        if (channels == 1) taken[0] = coverage;
-        const VF depth = depths / max(coverage, (VF)1e-30f);
+        VF coverage, taken[3];
+        const VF depth = mlsmNext(taps, front, together, live, fragments, values, &coverage, taken);
         const VF size = max((depth - r->w) * lookup->reach, r->footprint);
         const VF hat = V_SELECT((VF)0.0f, mlsmHat(p, level, size), V_MASK(coverage > 0.0f));
-        mlsmTake(light, lookup->accumulate, V_MASK(size < p->width[level]), hat, coverage, taken, channels);
+        const VI finer = V_MASK(size < p->width[level]), part = V_MASK(hat > 0.0f) & V_MASK(hat < 1.0f);
+        mlsmTake(light, lookup->accumulate, finer, hat, coverage, taken, channels);
+        mlsmTake(&whole, lookup->accumulate, live, (VF)1.0f, coverage, taken, channels);
+        answers |= V_MASK(hat > 0.0f);
+        up |= part & ~finer;
+        down |= part & finer;
     }
+    for (int c = 0; c < channels; ++c) through[c] = mlsmThrough(&whole, lookup->accumulate, c);
+    mlsmBoundBy(bound, through, answers, up, down, channels);
+    if (lookup->accumulate == MLSM_MULTIPLY) mlsmMultiplyLevel(light, channels);
 }
 
 /// Distance between neighbouring receivers in the map, the smaller one of both sides; 0 where neither is tested.
@@ -264,6 +321,7 @@ inline void mlsmLookup(const MultiViewParams* light, const LookupParams* bias, c
     VF lit[3] = {(VF)0.0f, (VF)0.0f, (VF)0.0f};
     for (int part = 0; part < lookup->parts; ++part) {
         MlsmLight seen = mlsmWholeLight();
+        MlsmBound bound = {{(VF)0.0f, (VF)0.0f, (VF)0.0f}, {(VF)1.0f, (VF)1.0f, (VF)1.0f}, (VI)0};
         const float offset = (float)part - 0.5f * (float)(lookup->parts - 1);
         for (int level = p->levels - 1; level >= 0; --level) {
             // Towards the part's centre, as far as what the level answers for is away
@@ -274,10 +332,13 @@ inline void mlsmLookup(const MultiViewParams* light, const LookupParams* bias, c
                                        lists, &taps, &nearest);
             // The four lists of a level hold all that those of finer ones do
             if (lookup->parts == 1 && !V_ANY(some)) break;
-            mlsmLevel(p, lookup, level, &r, &taps, nearest, some, fragments, &seen, values);
-            if (lookup->accumulate == MLSM_MULTIPLY) mlsmMultiplyLevel(&seen, channels);
+            mlsmLevel(p, lookup, level, &r, &taps, nearest, some, fragments, &seen, &bound, values);
         }
-        for (int c = 0; c < channels; ++c) lit[c] += seen.through[c] * seen.layer[c] * (1.0f - seen.above[c]);
+        for (int c = 0; c < channels; ++c) {
+            const VF through = seen.through[c] * seen.layer[c] * (1.0f - seen.above[c]);
+            const VF most = V_SELECT(bound.most[c], (VF)1.0f, bound.shares);
+            lit[c] += V_SELECT((VF)1.0f, min(through, most), V_MASK(through < 1.0f));
+        }
     }
     const float kx = light->halfWidth * light->focal / light->near, ky = light->halfHeight * light->focal / light->near;
     const VF above = mlsmAbove(facing, gradientX * kx, gradientY * ky);
