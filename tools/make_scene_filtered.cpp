@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scenes of [MLSM]: occluders at many depths over one another, leaves and wire as alpha textures,
-// coloured glass.
+// The scenes of [MLSM]: occluders at many depths over one another, leaves and wire as alpha
+// textures, coloured glass.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -63,7 +63,8 @@ void addColonnade(GltfWriter& writer) {
             addUnder(writer, -1, node);
         }
     Mesh beams;
-    for (const float z : {-0.9F, 0.9F}) addBox(beams, {0, kHeight + 0.15F, z}, {2.9F, 0.15F, 0.28F});
+    for (const float z : {-0.9F, 0.9F})
+        addBox(beams, {0, kHeight + 0.15F, z}, {2.9F, 0.15F, 0.28F});
     addProp(writer, {{"name", "beams"}}, withNormals(beams, 30), stone);
 }
 
@@ -145,14 +146,15 @@ Mesh makeStalls() {
         addBox(mesh, place + vec3(0, 0.45F, 0), {0.35F, 0.02F, 0.4F});
         for (const float dx : {-0.32F, 0.32F})
             for (const float dz : {-0.36F, 0.36F})
-                append(mesh, makeBar(place + vec3(dx, 0, dz), place + vec3(dx, 1.1F, dz), 0.02F, 8));
+                append(mesh,
+                       makeBar(place + vec3(dx, 0, dz), place + vec3(dx, 1.1F, dz), 0.02F, 8));
         for (int fruit = 0; fruit < 40; ++fruit) {
             const vec3 at(-0.28F + 0.08F * static_cast<float>(fruit % 8), 0.51F,
                           -0.3F + 0.14F * static_cast<float>(fruit / 8));
             append(mesh, makeSphere(0.04F, 12, 8), quat(1, 0, 0, 0), place + at);
         }
-        append(mesh, makeLathe({{0.16F, 0}, {0.21F, 0.2F}, {0.16F, 0.42F}}, 32),
-               quat(1, 0, 0, 0), place - vec3(side * 0.55F, 0, 0.5F));
+        append(mesh, makeLathe({{0.16F, 0}, {0.21F, 0.2F}, {0.16F, 0.42F}}, 32), quat(1, 0, 0, 0),
+               place - vec3(side * 0.55F, 0, 0.5F));
     }
     return mesh;
 }
@@ -174,10 +176,10 @@ void makeStreet(GltfWriter& writer) {
     for (int i = 0; i < 10; ++i) {
         const bool left = i % 2 == 0;
         const float width = 2.2F + 0.2F * static_cast<float>(i % 3);
-        const Mesh house = withNormals(makeHouse(width, 2.4F + 0.5F * static_cast<float>(i % 4)), 40);
-        add("house", house,
-            {left ? -2.3F : 2.3F, 0, -6 + 2.6F * static_cast<float>(i / 2)}, left ? 90.0F : -90.0F,
-            plaster);
+        const Mesh house =
+            withNormals(makeHouse(width, 2.4F + 0.5F * static_cast<float>(i % 4)), 40);
+        add("house", house, {left ? -2.3F : 2.3F, 0, -6 + 2.6F * static_cast<float>(i / 2)},
+            left ? 90.0F : -90.0F, plaster);
     }
     add("garlands", withNormals(makeGarlands(), 50), vec3(0), 0, red);
     add("stalls", withNormals(makeStalls(), 50), vec3(0), 0, wood);
@@ -219,7 +221,8 @@ void makeFence(GltfWriter& writer) {
     }
     append(posts, makeBar({-2, 1.48F, 0}, {2, 1.48F, 0}, 0.02F, 24));
     addProp(writer, {{"name", "posts"}}, withNormals(posts, 50), steel);
-    addProp(writer, {{"name", "wire"}}, makeTexturedQuad({-2, 0.05F, 0}, {4, 0, 0}, {0, 1.4F, 0}, {40, 14}), wire);
+    addProp(writer, {{"name", "wire"}},
+            makeTexturedQuad({-2, 0.05F, 0}, {4, 0, 0}, {0, 1.4F, 0}, {40, 14}), wire);
     Mesh block;
     addBox(block, {0, 0.9F, -2.6F}, {2.6F, 0.9F, 0.1F});
     addProp(writer, {{"name", "wall"}}, withNormals(block, 30), wall);
@@ -250,7 +253,8 @@ Mesh makePane(int ring, int spoke) {
         }
     }
     for (uint32_t i = 0; i < kSteps; ++i)
-        for (const uint32_t corner : {0U, 1U, 3U, 0U, 3U, 2U}) mesh.indices.push_back(2 * i + corner);
+        for (const uint32_t corner : {0U, 1U, 3U, 0U, 3U, 2U})
+            mesh.indices.push_back(2 * i + corner);
     return mesh;
 }
 
@@ -274,8 +278,9 @@ void makeWindow(GltfWriter& writer) {
     std::vector<Mesh> glass(std::size(kPanes));
     for (int ring = 0; ring < kRings; ++ring)
         for (int spoke = 0; spoke < kSpokes; ++spoke)
-            appendWhole(glass[static_cast<std::size_t>(ring * 5 + spoke * (ring + 2)) % glass.size()],
-                        makePane(ring, spoke));
+            appendWhole(
+                glass[static_cast<std::size_t>(ring * 5 + spoke * (ring + 2)) % glass.size()],
+                makePane(ring, spoke));
     for (std::size_t i = 0; i < glass.size(); ++i) {
         const int pane = writer.addMaterial("glass", kPanes[i], 0.3F);
         nlohmann::json& material = writer.document()["materials"][pane];

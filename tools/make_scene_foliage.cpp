@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "make_scene_random.h"
+
 namespace tools {
 
 using glm::vec2;
@@ -13,23 +15,12 @@ namespace {
 
 constexpr float kPi = 3.14159265F;
 
-// Small irregularities, the same on every machine.
-class Jitter {
-  public:
-    float next() {  // uniform in -1 .. 1
-        state_ = state_ * 1664525U + 1013904223U;
-        return static_cast<float>(state_ >> 8U) / 8388608.0F - 1;
-    }
-    vec3 direction() {
-        const float z = next();
-        const float angle = kPi * next();
-        const float r = std::sqrt(1 - z * z);
-        return {r * std::cos(angle), z, r * std::sin(angle)};
-    }
-
-  private:
-    uint32_t state_ = 2463534242U;
-};
+vec3 nextDirection(Jitter& jitter) {
+    const float z = jitter.next();
+    const float angle = kPi * jitter.next();
+    const float r = std::sqrt(1 - z * z);
+    return {r * std::cos(angle), z, r * std::sin(angle)};
+}
 
 template <typename Place>
 Mesh makeGrid(uint32_t columns, uint32_t rows, const Place& place) {
@@ -110,10 +101,13 @@ Picture leafPicture() {
             const float y = 1 - (static_cast<float>(row) + 0.5F) / 128;  // from the stalk on
             const float blade = std::min(std::max((y - 0.16F) / 0.8F, 0.0F), 1.0F);
             const float outline = 2.2F * std::sqrt(blade) * (1 - blade) * (1 + 0.5F * blade);
-            const float edge = std::max(outline - std::abs(x), 0.06F * (y < 0.2F ? 1.0F : 0.0F) - std::abs(x));
-            const bool vein = std::abs(x) < 0.05F || std::abs(std::fmod(y * 9 + std::abs(x) * 3, 1.0F) - 0.5F) < 0.06F;
+            const float edge =
+                std::max(outline - std::abs(x), 0.06F * (y < 0.2F ? 1.0F : 0.0F) - std::abs(x));
+            const bool vein = std::abs(x) < 0.05F ||
+                              std::abs(std::fmod(y * 9 + std::abs(x) * 3, 1.0F) - 0.5F) < 0.06F;
             const float alpha = std::min(std::max(edge * 32 + 0.5F, 0.0F), 1.0F);
-            picture.at(column, row) = {static_cast<uint8_t>(vein ? 120 : 84), static_cast<uint8_t>(vein ? 150 : 128), 60,
+            picture.at(column, row) = {static_cast<uint8_t>(vein ? 120 : 84),
+                                       static_cast<uint8_t>(vein ? 150 : 128), 60,
                                        static_cast<uint8_t>(255 * alpha)};
         }
     return picture;
@@ -126,7 +120,8 @@ Picture wirePicture() {
             // Two diagonals: distances to the nearest lines x + y and x - y, in texels
             const float sum = std::fmod(static_cast<float>(column + row) + 1, 64.0F);
             const float difference = std::fmod(static_cast<float>(column + 64 - row), 64.0F);
-            const float nearest = std::min(std::min(sum, 64 - sum), std::min(difference, 64 - difference));
+            const float nearest =
+                std::min(std::min(sum, 64 - sum), std::min(difference, 64 - difference));
             const float alpha = std::min(std::max((7 - nearest) * 0.5F, 0.0F), 1.0F);
             picture.at(column, row) = {170, 172, 176, static_cast<uint8_t>(255 * alpha)};
         }
@@ -144,7 +139,7 @@ void addBranch(TreeParts& tree, std::vector<vec3>& tips, Jitter& jitter, const v
     for (int i = 0; i <= kStations; ++i) {
         const float t = static_cast<float>(i) / kStations;
         rings.push_back({at, radius * (1 - 0.45F * t), radius * (1 - 0.45F * t)});
-        heading = glm::normalize(heading + 0.16F * jitter.direction() + vec3(0, 0.03F, 0));
+        heading = glm::normalize(heading + 0.16F * nextDirection(jitter) + vec3(0, 0.03F, 0));
         at += heading * (length / kStations);
         if (depth >= 2) tips.push_back(at);
     }
@@ -152,10 +147,11 @@ void addBranch(TreeParts& tree, std::vector<vec3>& tips, Jitter& jitter, const v
     if (depth == 4) return;
     const int branches = depth == 0 ? 5 : 3;
     for (int i = 0; i < branches; ++i) {
-        const vec3 side = glm::normalize(heading + 0.95F * jitter.direction() + vec3(0, 0.25F, 0));
+        const vec3 side =
+            glm::normalize(heading + 0.95F * nextDirection(jitter) + vec3(0, 0.25F, 0));
         const float back = 0.35F * static_cast<float>(i) / static_cast<float>(branches);
-        addBranch(tree, tips, jitter, at - heading * (length * back), side, length * 0.7F, radius * 0.55F,
-                  depth + 1);
+        addBranch(tree, tips, jitter, at - heading * (length * back), side, length * 0.7F,
+                  radius * 0.55F, depth + 1);
     }
 }
 
@@ -168,11 +164,11 @@ TreeParts makeTreeParts(int leafCount) {
     addBranch(tree, tips, jitter, {0, -0.02F, 0}, {0, 1, 0}, 0.95F, 0.11F, 0);
     for (int i = 0; i < leafCount; ++i) {
         const vec3 foot = tips[static_cast<std::size_t>(i) * 7919 % tips.size()];
-        const vec3 up = glm::normalize(jitter.direction() + vec3(0, -0.2F, 0));
-        const vec3 side = glm::normalize(glm::cross(up, jitter.direction()));
+        const vec3 up = glm::normalize(nextDirection(jitter) + vec3(0, -0.2F, 0));
+        const vec3 side = glm::normalize(glm::cross(up, nextDirection(jitter)));
         const float size = 0.15F + 0.03F * jitter.next();
-        appendWhole(tree.leaves,
-                    makeTexturedQuad(foot - side * (size * 0.25F), side * (size * 0.5F), up * size, {1, 1}));
+        appendWhole(tree.leaves, makeTexturedQuad(foot - side * (size * 0.25F),
+                                                  side * (size * 0.5F), up * size, {1, 1}));
     }
     return tree;
 }

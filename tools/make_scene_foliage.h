@@ -6,7 +6,8 @@
 
 namespace tools {
 
-// Hangs from y + height down to y = 0 in folds, `halfWidth` to both sides; open, to be seen from both.
+// Hangs from y + height down to y = 0 in folds, `halfWidth` to both sides; open, to be seen from
+// both.
 Mesh makeCurtain(float halfWidth, float height, uint32_t columns, uint32_t rows);
 
 // A waving rectangle of exactly so many triangles.

@@ -47,10 +47,9 @@ inline constexpr NamedScene kScenes[] = {
     {"mvss6", makeMvss6},         {"tree", makeTree},
     {"tower", makeTower},         {"toys", makeToys},
     {"dragon", makeDragon},       {"coaster", makeCoaster},
-    {"church", makeChurch},
-    {"hall", makeHall},           {"street", makeStreet},
-    {"foliage", makeFoliage},     {"fence", makeFence},
-    {"window", makeWindow},
+    {"church", makeChurch},       {"hall", makeHall},
+    {"street", makeStreet},       {"foliage", makeFoliage},
+    {"fence", makeFence},         {"window", makeWindow},
 };
 
 }  // namespace tools

@@ -129,10 +129,10 @@ json mlsmTable3(const Request& request) {
         one.height = size.height;
         std::vector<report::Comparison> scenes;
         for (const char* scene : {"hall", "street"})
-            scenes.push_back(compareOn(scene, fmt::format("{}-{}", scene, size.height),
-                                       {std::string(kAll) + ":stackFrom=0",
-                                        std::string(kAll) + ":stackFrom=128"},
-                                       "none", one, baseOptions(one, 128)));
+            scenes.push_back(compareOn(
+                scene, fmt::format("{}-{}", scene, size.height),
+                {std::string(kAll) + ":stackFrom=0", std::string(kAll) + ":stackFrom=128"}, "none",
+                one, baseOptions(one, 128)));
         for (std::size_t i = 0; i < 2; ++i) {
             std::vector<std::string> cells{fmt::format("{}x{}", size.width, size.height),
                                            i ? "stack 128" : "pyramid"};
@@ -193,10 +193,9 @@ json mlsmTable4(const Request& request) {
     json rows = json::array();
     for (const auto& s : scenes) {
         auto base = baseOptions(request, 128);
-        const auto comparison =
-            compareOn(s.scene, std::string(s.scene) + "-rivals",
-                      techniquesOf({std::begin(columns), std::end(columns)}), "raytrace:samples=128",
-                      request, base);
+        const auto comparison = compareOn(s.scene, std::string(s.scene) + "-rivals",
+                                          techniquesOf({std::begin(columns), std::end(columns)}),
+                                          "raytrace:samples=128", request, base);
         std::vector<std::string> cells{s.scene};
         json row = {{"scene", s.scene}};
         for (std::size_t i = 0; i < std::size(columns); ++i) {

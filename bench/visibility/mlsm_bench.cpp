@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Filtered multi-layer shadow maps by stage: lists of the base level (array and linked list), merging
-// (pyramid and stack), lookup of 1280 x 720 receivers.
+// Filtered multi-layer shadow maps by stage: lists of the base level (array and linked list),
+// merging (pyramid and stack), lookup of 1280 x 720 receivers.
 #include "bench/support/technique_run.h"
 
 namespace penumbra::bench {

@@ -48,8 +48,8 @@ std::uint32_t averageTexel(const std::uint32_t (&texels)[4], bool srgb) {
     return packed;
 }
 
-/// Alpha becomes 255 where the alpha test passes, else 0; next to the cutoff, where the edge of what
-/// passes lies within the texel, something between.
+/// Alpha becomes 255 where the alpha test passes, else 0; next to the cutoff, where the edge of
+/// what passes lies within the texel, something between.
 std::uint32_t testAlpha(std::uint32_t texel, float cutoff) {
     constexpr float kSharpness = 8;
     const float above = static_cast<float>(texel >> 24) / 255 - cutoff;

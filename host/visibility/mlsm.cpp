@@ -85,8 +85,8 @@ Mlsm::Mlsm(const TechniqueContext& context)
       multiView_(shared_, settings_, context.width, context.height),
       source_(std::make_unique<Source>(frame_, program_, settings_)),
       reader_(std::make_unique<Reader>(program_, settings_, *source_)),
-      receivers_(static_cast<std::uint64_t>(
-          shared::gbufferStride(context.width * context.height))) {}
+      receivers_(
+          static_cast<std::uint64_t>(shared::gbufferStride(context.width * context.height))) {}
 
 Mlsm::~Mlsm() = default;
 

@@ -67,7 +67,8 @@ MlsmLevels planMlsmLevels(const MlsmSettings& settings, double largest) {
         p.width[i] = static_cast<float>(level.width());
         levels.lists += static_cast<std::uint64_t>(level.size) * level.size;
         const bool covers = std::exp2(i) >= settings.resolution;
-        if (covers || i >= settings.maxLevel || i + 1 >= MLSM_MAX_LEVELS || level.width() >= largest)
+        if (covers || i >= settings.maxLevel || i + 1 >= MLSM_MAX_LEVELS ||
+            level.width() >= largest)
             return levels;
         levels.steps.push_back(
             stepTo(i + 1, settings.stackFrom, i < settings.subsampleLevels, level));

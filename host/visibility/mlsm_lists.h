@@ -64,10 +64,10 @@ class MlsmLists {
         collect_;
     runtime::Kernel<shared::MlsmParams, Buffer<U32>, Buffer<float>, Buffer<U32>> sort_;
     MlsmMap map_;
-    Buffer<U32> counts_, first_;                 ///< [texel], [texel + 1]
-    Buffer<U32> heads_, links_, nodeCount_;      ///< of linked lists
-    Buffer<float> nodes_;                        ///< their fragments
-    std::deque<Buffer<U32>> totals_;             ///< [light of the frame]
+    Buffer<U32> counts_, first_;             ///< [texel], [texel + 1]
+    Buffer<U32> heads_, links_, nodeCount_;  ///< of linked lists
+    Buffer<float> nodes_;                    ///< their fragments
+    std::deque<Buffer<U32>> totals_;         ///< [light of the frame]
     std::size_t lightsBegun_ = 0;
     std::uint64_t capacity_ = 0, fragments_ = 0;
 };

@@ -16,8 +16,9 @@ MlsmReach mlsmReachOf(const LightView& view) {
     MlsmReach reach;
     if (!(longer > 0)) return reach;
     // A light that is next to a line is cut into squares all the same
-    reach.parts = std::clamp(static_cast<int>(std::lround(longer / std::max(shorter, 1e-9 * longer))),
-                             1, MLSM_MAX_PARTS);
+    reach.parts =
+        std::clamp(static_cast<int>(std::lround(longer / std::max(shorter, 1e-9 * longer))), 1,
+                   MLSM_MAX_PARTS);
     const double part = longer / reach.parts, side = std::sqrt(part * std::max(shorter, part / 4));
     reach.size = side * perMetre;
     (width > height ? reach.stepX : reach.stepY) = part / side;

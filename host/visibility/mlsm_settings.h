@@ -30,9 +30,10 @@ struct MlsmSettings : MapSettings, BiasSettings {
     template <typename Row>
     void rows(Row& row) {
         pixelRows(row);
-        row.choice("faces", faces, {"auto", "back", "front", "all"},
-                   "faces that are kept; auto: back faces of edge-closed opaque meshes, both of all "
-                   "others");
+        row.choice(
+            "faces", faces, {"auto", "back", "front", "all"},
+            "faces that are kept; auto: back faces of edge-closed opaque meshes, both of all "
+            "others");
         row.choice("build", build, {"array", "list"},
                    "of the base level: counted, then filled, or by linked lists; never changes the "
                    "image",
@@ -45,9 +46,10 @@ struct MlsmSettings : MapSettings, BiasSettings {
         row.choice("accumulateMerge", accumulateMerge, {"auto", "add", "multiply", "max", "cover"},
                    "opacities of one list as lists are merged; cover: added until all is covered; "
                    "auto: multiply where anything is alpha-tested, else cover");
-        row.choice("accumulateLookup", accumulateLookup, {"auto", "add", "multiply"},
-                   "opacities before a receiver: occluders beside one another, or overlapping ones; "
-                   "auto: multiply where anything is alpha-tested, else add");
+        row.choice(
+            "accumulateLookup", accumulateLookup, {"auto", "add", "multiply"},
+            "opacities before a receiver: occluders beside one another, or overlapping ones; "
+            "auto: multiply where anything is alpha-tested, else add");
         row.number("stackFrom", stackFrom, 0, 8192, "texels",
                    "levels of this size and smaller become a stack of equal size (Y-map); 0: none");
         row.number("maxLevel", maxLevel, 0, 13, "",

@@ -31,7 +31,8 @@ class MapSource {
                        Buffer<shared::MultiViewCounters>& counters) = 0;
     /// Pixels of the enlarged view per texel of a map, where the source looks through that view.
     virtual double density() const { return 1; }
-    /// False if it makes something else than depth maps: none are allocated, and fill is called once.
+    /// False if it makes something else than depth maps: none are allocated, and fill is called
+    /// once.
     virtual bool makesMaps() const { return true; }
     /// Enqueues filling all maps of the batch: maps32 where needsWideMaps(), else the narrower one.
     virtual void fill(const MapBatch& batch) = 0;
@@ -104,7 +105,8 @@ class MultiView {
     int batchSize(const LightView& view, bool wide) const;
     void allocateMaps(const LightView& view, int batch, bool wide);
     void pack(const LightView& view, const MapBatch& batch);
-    void readMaps(const Inputs& inputs, const LightView& view, MapSource& source, MapReader& reader);
+    void readMaps(const Inputs& inputs, const LightView& view, MapSource& source,
+                  MapReader& reader);
     void traceOutside(const Inputs& inputs, Visibility& visibility);
     void average(int tests, int channels, const GBuffer& gbuffer, Visibility& visibility);
     void keepMaps(const LightView& view, const MapBatch& batch, DepthMaps& out);

@@ -33,8 +33,8 @@ inline float4 footprintColour(const Draw* draw, global const Material* m, global
 
 /// x, y, z: what is taken of red, green and blue; w: share of the texel that is covered; 0: no fragment.
 /// Alpha-tested surfaces are covered or not where the texture is magnified, and by the share that passes the test where
-/// it is minified ([MLSM] 5.3); blended ones cover whole texels and let T = (1 - a)(1 - a + a c) through, transmissive ones
-/// T = 1 - a + a t c.
+/// it is minified ([MLSM] 5.3); blended ones cover whole texels and let T = (1 - a)(1 - a + a c) through,
+/// transmissive ones T = 1 - a + a t c.
 inline float4 mlsmOpacity(const Draw* draw, global const Material* materials, global const uint* indices,
                           global const float* restrict uvs, global const uint* restrict colours,
                           global const uint* restrict texels, uint triangle, const RasterVertex* v, int x, int y) {

@@ -171,8 +171,8 @@ struct Seen {
 class Lookup {
   public:
     Lookup(const PlaneReceiver& receiver, const ViewGeometry& view,
-           const visibility::MlsmLevels& levels,
-           const std::vector<std::vector<MlsmList>>& lists, const MlsmLookupReference& settings)
+           const visibility::MlsmLevels& levels, const std::vector<std::vector<MlsmList>>& lists,
+           const MlsmLookupReference& settings)
         : r_(receiver), view_(view), levels_(levels), lists_(lists), s_(settings) {
         const double middle = 0.5 * view.resolution;
         w_ = view.near / r_.origin.z;
@@ -197,9 +197,9 @@ class Lookup {
         const auto& p = levels_.params;
         const double width = p.width[level];
         if (size <= width)
-            return level == 0 ? 1
-                              : std::max((size - p.width[level - 1]) / (width - p.width[level - 1]),
-                                         0.0);
+            return level == 0
+                       ? 1
+                       : std::max((size - p.width[level - 1]) / (width - p.width[level - 1]), 0.0);
         return level + 1 == p.levels
                    ? 1
                    : std::max((p.width[level + 1] - size) / (p.width[level + 1] - width), 0.0);

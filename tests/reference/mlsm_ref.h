@@ -13,7 +13,7 @@
 namespace penumbra::tests {
 
 struct MlsmFragment {
-    double depth = 0;             ///< near / z
+    double depth = 0;  ///< near / z
     double coverage = 0;
     std::array<double, 3> taken{};  ///< per channel, times coverage; one channel: coverage
 };

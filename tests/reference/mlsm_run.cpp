@@ -57,8 +57,8 @@ MlsmRun runMlsm(const scene::Scene& original, const MlsmSetup& setup) {
     const auto pose = scene::poseAt(scene, {}, 0);
     MlsmRun run;
     run.light = scene::lightsAt(scene, pose, bounds, {}).at(0);
-    run.view = visibility::fitLightView(run.light, bounds, bounds.centre(),
-                                        setup.settings.resolution, 1);
+    run.view =
+        visibility::fitLightView(run.light, bounds, bounds.centre(), setup.settings.resolution, 1);
     geometry::Geometry geometry(program("frame"), scene, bounds.centre());
     const auto& mesh = geometry.run(pose);
     visibility::MlsmLists lists(program("frame"), program("mlsm"), setup.settings);

@@ -19,8 +19,8 @@ struct MlsmRun {
     scene::AreaLight light;
     visibility::LightView view;
     visibility::MlsmLevels levels;
-    std::vector<std::vector<MlsmList>> lists;   ///< [level][row, column]
-    std::vector<std::vector<float>> nearest;    ///< [level]: depth that skipping relies on
+    std::vector<std::vector<MlsmList>> lists;  ///< [level][row, column]
+    std::vector<std::vector<float>> nearest;   ///< [level]: depth that skipping relies on
     int retries = 0;
 };
 

@@ -53,8 +53,7 @@ std::vector<std::vector<MlsmList>> filtered(const std::vector<MlsmList>& base, M
     p.epsilon = epsilon;
     p.capacity = 1 << 20;
     auto upload = uploadOf({base}, channels);
-    const auto count =
-        static_cast<std::uint32_t>(upload.fragments.size()) / MLSM_VALUES(channels);
+    const auto count = static_cast<std::uint32_t>(upload.fragments.size()) / MLSM_VALUES(channels);
     upload.lists.resize(MLSM_LIST * levels.lists);
     upload.fragments.resize(static_cast<std::size_t>(p.capacity) * MLSM_VALUES(channels));
     Buffer<std::uint32_t> total(device(), "total", std::vector<std::uint32_t>{count});
@@ -80,7 +79,8 @@ class MlsmFilterTest : public testing::TestWithParam<int> {};
 TEST_P(MlsmFilterTest, EachLevelIsTheTwinOfTheOneBelow) {
     std::size_t compared = 0, wrong = 0;
     for (const int channels : {1, 3})
-        for (const auto& [size, stackFrom] : {std::pair(32, 0), std::pair(32, 8), std::pair(27, 7)}) {
+        for (const auto& [size, stackFrom] :
+             {std::pair(32, 0), std::pair(32, 8), std::pair(27, 7)}) {
             const auto levels = planMlsmLevels(settingsOf(size, stackFrom), 1e9);
             const float epsilon = 0.02F;
             const auto device = filtered(randomLists(7, size, channels == 3), levels, channels,
@@ -134,9 +134,9 @@ TEST(MlsmLevelsTest, LevelsOfAConstantMapAreConstant) {
     const MlsmList constant = {{0.75, 1, {1, 1, 1}}, {0.5, 0.25, {0.25, 0.25, 0.25}}};
     for (const auto& [size, stackFrom] : {std::pair(32, 0), std::pair(32, 8), std::pair(23, 6)}) {
         const auto levels = planMlsmLevels(settingsOf(size, stackFrom), 1e9);
-        const auto lists = filtered(
-            std::vector<MlsmList>(static_cast<std::size_t>(size) * size, constant), levels, 1,
-            MLSM_COVER, 0.002F);
+        const auto lists =
+            filtered(std::vector<MlsmList>(static_cast<std::size_t>(size) * size, constant), levels,
+                     1, MLSM_COVER, 0.002F);
         for (const auto& level : lists)
             for (const auto& list : level) {
                 ASSERT_EQ(list.size(), 2U);

@@ -51,9 +51,8 @@ scene::Scene soup(unsigned seed, int triangles, float size) {
 /// Checks lists against the twin: lengths but where an edge passes a texel's centre, then depths.
 void expectTwin(const scene::Scene& scene, const MlsmSetup& setup) {
     const auto run = runMlsm(scene, setup);
-    const auto twin =
-        mlsmBaseReference(scene, run.light, run.view.params.near, run.view.params.tanHalfFov,
-                          setup.settings.resolution);
+    const auto twin = mlsmBaseReference(scene, run.light, run.view.params.near,
+                                        run.view.params.tanHalfFov, setup.settings.resolution);
     std::size_t wrong = 0, steep = 0, fragments = 0, longest = 0;
     for (std::size_t i = 0; i < twin.size(); ++i) {
         const auto& list = run.lists[0][i];
@@ -69,8 +68,8 @@ void expectTwin(const scene::Scene& scene, const MlsmSetup& setup) {
                 ASSERT_NEAR(list[f].taken[c], twin[i][f].taken[c], 1e-6) << "texel " << i;
         }
     }
-    std::printf("[ LISTS    ] %zu fragments, longest list %zu, %zu of %zu lists differ\n", fragments,
-                longest, wrong, twin.size());
+    std::printf("[ LISTS    ] %zu fragments, longest list %zu, %zu of %zu lists differ\n",
+                fragments, longest, wrong, twin.size());
     EXPECT_GT(fragments, 500U);
     EXPECT_LE(wrong, twin.size() / 100);
     EXPECT_LE(steep, fragments / 20);
@@ -93,8 +92,9 @@ TEST(MlsmListsTest, HoldWhatBlendedSurfacesTakeOfEachChannel) {
 
 TEST(MlsmListsTest, BothBuildsAndPermutedTrianglesGiveTheSameBits) {
     for (const bool coloured : {false, true}) {
-        auto scene = coloured ? texturedScene(3, 40, {Surface::opaque, Surface::maskSmooth,
-                                                      Surface::blendTexture, Surface::glass})
+        auto scene = coloured ? texturedScene(3, 40,
+                                              {Surface::opaque, Surface::maskSmooth,
+                                               Surface::blendTexture, Surface::glass})
                               : soup(2, 200, 0.3F);
         auto setup = smallSetup();
         const auto array = runMlsm(scene, setup);
@@ -203,8 +203,7 @@ TEST(MlsmListsTest, MinifiedAlphaTestsCoverByTheShareThatPasses) {
     scene.materials[0].alphaMode = scene::AlphaMode::mask;
     scene.materials[0].baseColorTexture.image = 0;
     auto& p = scene.meshes[0].primitives[0];
-    for (const auto& position : p.positions)
-        p.uvs[0].emplace_back(8 * position.x, 8 * position.z);
+    for (const auto& position : p.positions) p.uvs[0].emplace_back(8 * position.x, 8 * position.z);
     const auto run = runMlsm(scene, smallSetup());
     double sum = 0;
     std::size_t covered = 0;

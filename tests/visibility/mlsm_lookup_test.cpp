@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Lookup of receivers against the twin, on random lists and random planes.
+#include "host/visibility/mlsm_lookup.h"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "host/visibility/mlsm_lookup.h"
 #include "kernels/shared/gbuffer.h"
 #include "tests/reference/mlsm_run.h"
 #include "tests/support/fixtures.h"
@@ -40,10 +41,9 @@ struct Case {
         levels.params.channels = v.channels;
         lists.push_back(surfaces());
         for (std::size_t k = 1; k < static_cast<std::size_t>(levels.params.levels); ++k)
-            lists.push_back(mlsmMergeReference(lists[k - 1], levels.params.size[k - 1],
-                                               levels.steps[k - 1], levels.params.size[k],
-                                               0.01 * std::exp2(static_cast<double>(k)),
-                                               MLSM_COVER));
+            lists.push_back(mlsmMergeReference(
+                lists[k - 1], levels.params.size[k - 1], levels.steps[k - 1], levels.params.size[k],
+                0.01 * std::exp2(static_cast<double>(k)), MLSM_COVER));
         // What the device stores is what the twin reads
         for (auto& level : lists)
             for (auto& list : level)
@@ -62,7 +62,8 @@ struct Case {
         std::vector<MlsmList> base(kResolution * kResolution);
         for (int s = 0; s < 7; ++s) {
             const double depth = between(0.3, 0.95), slope = between(-0.004, 0.004);
-            const int left = static_cast<int>(between(-4, 26)), top = static_cast<int>(between(-4, 26));
+            const int left = static_cast<int>(between(-4, 26)),
+                      top = static_cast<int>(between(-4, 26));
             const std::array<double, 3> opacity{between(0.2, 1), between(0.2, 1), between(0.2, 1)};
             const bool glass = variant.channels == 3 && s % 2;
             for (int y = std::max(top, 0); y < std::min(top + 14, kResolution); ++y)
@@ -185,7 +186,8 @@ INSTANTIATE_TEST_SUITE_P(Variants, MlsmLookupTest,
                          [](const auto& test) { return test.param.name; });
 
 /// Visibility of receivers at given depths below the middle of one list everywhere.
-std::vector<double> below(const MlsmList& list, const std::vector<double>& depths, double halfSize) {
+std::vector<double> below(const MlsmList& list, const std::vector<double>& depths,
+                          double halfSize) {
     Case c(1, {"", 1, 1, false, halfSize, 0});
     c.lists[0].assign(c.lists[0].size(), list);
     for (std::size_t k = 1; k < c.lists.size(); ++k) c.lists[k].assign(c.lists[k].size(), list);

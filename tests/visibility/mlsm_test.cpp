@@ -53,9 +53,7 @@ scene::Scene layers() {
 double leakOf(const ShadowRun& run, const ShadowRun& rays) {
     double most = 0;
     std::size_t hidden = 0;
-    const auto at = [&](int x, int y) {
-        return static_cast<std::size_t>(y * run.width + x);
-    };
+    const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * run.width + x); };
     for (int y = 2; y + 2 < run.height; ++y)
         for (int x = 2; x + 2 < run.width; ++x) {
             bool dark = true;
@@ -106,15 +104,16 @@ TEST(MlsmTest, AWideSheetHidesAllBelowItHoweverItLeans) {
                 ++tested;
                 most = std::max(most, static_cast<double>(run.visibility[i]));
             }
-            std::printf("[ LEAN     ] %.1f %s: %zu pixels, at most %.4f\n", lean, accumulate, tested,
-                        most);
+            std::printf("[ LEAN     ] %.1f %s: %zu pixels, at most %.4f\n", lean, accumulate,
+                        tested, most);
             EXPECT_GT(tested, 500U);
             EXPECT_LT(most, 1.0 / 255) << lean << " " << accumulate;
         }
 }
 
 TEST(MlsmTest, PermutedTrianglesAndEitherBuildChangeNoByte) {
-    auto scene = texturedScene(6, 60, {Surface::opaque, Surface::maskSmooth, Surface::blendTexture});
+    auto scene =
+        texturedScene(6, 60, {Surface::opaque, Surface::maskSmooth, Surface::blendTexture});
     auto setup = mlsmSetup();
     setup.light = kTexturedLight;
     const auto first = runWith(scene, setup, "mlsm");
@@ -142,8 +141,7 @@ TEST(MlsmTest, TheShadowOfAnEdgeIsAsWideAsParallelPlanesHaveIt) {
     setup.eye = {0.3, 0.9, 2.4};
     // Magnified texels of a pyramid are coarser than the penumbra: [MLSM] figure 6
     for (const auto& [stackFrom, limit] : {std::pair("0", 0.08), std::pair("128", 0.02)}) {
-        const auto run =
-            runWith(builder.scene(), setup, "mlsm", {{"mlsm.stackFrom", stackFrom}});
+        const auto run = runWith(builder.scene(), setup, "mlsm", {{"mlsm.stackFrom", stackFrom}});
         double squares = 0;
         std::size_t count = 0;
         for (std::size_t i = 0; i < run.pixels(); ++i) {
@@ -180,14 +178,14 @@ TEST(MlsmTest, AnOccluderAcrossManyLevelsHasNoSteps) {
         double truth = 0;
         bool tested = true;
         for (std::size_t k = i - 4; k < i + 4; ++k) {
-            truth = std::max(truth, std::abs(static_cast<double>(rays.visibility[k]) -
-                                             rays.visibility[k + 1]));
+            truth = std::max(
+                truth, std::abs(static_cast<double>(rays.visibility[k]) - rays.visibility[k + 1]));
             tested &= run.tested(k) && placeOf(run, k).y < 1e-3 && placeOf(run, k).z < -0.65;
         }
         if (!tested || truth > 0.05) continue;
         smooth += run.visibility[i] > 0.02F && run.visibility[i] < 0.98F;
-        worst = std::max(worst, std::abs(static_cast<double>(run.visibility[i]) -
-                                         run.visibility[i + 1]));
+        worst = std::max(worst,
+                         std::abs(static_cast<double>(run.visibility[i]) - run.visibility[i + 1]));
     }
     std::printf("[ STEP     ] at most %.3f in %zu pixels of penumbra\n", worst, smooth);
     EXPECT_GT(smooth, 50U);
@@ -203,14 +201,14 @@ TEST(MlsmTest, OverlappingOccludersAddUpOrMultiply) {
     auto setup = mlsmSetup();
     setup.eye = {2.4, 0.8, 0};  // under the sheets
     for (const bool multiply : {false, true}) {
-        const auto run =
-            runWith(builder.scene(), setup, "mlsm",
-                    {{"mlsm.accumulateLookup", multiply ? "multiply" : "add"}});
+        const auto run = runWith(builder.scene(), setup, "mlsm",
+                                 {{"mlsm.accumulateLookup", multiply ? "multiply" : "add"}});
         double squares = 0;
         std::size_t count = 0;
         for (std::size_t i = 0; i < run.pixels(); ++i) {
             const auto p = placeOf(run, i);
-            if (!run.tested(i) || std::abs(p.x) > 0.6 || std::abs(p.z) > 0.8 || p.y > 1e-3) continue;
+            if (!run.tested(i) || std::abs(p.x) > 0.6 || std::abs(p.z) > 0.8 || p.y > 1e-3)
+                continue;
             // Penumbrae of a square light of 1 m: 0.2 m and 1 m
             const double low = std::clamp(0.5 + p.x / 0.2, 0.0, 1.0);
             const double high = std::clamp(0.5 + p.x, 0.0, 1.0);
@@ -234,16 +232,19 @@ TEST(MlsmTest, LongLightsDisksAndHalfResolutionAreCloseToRays) {
         const char *name, *light;
         SettingValues settings;
         double limit;
-    } cases[] = {
-        {"square", "rect:at=0.5,5,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=10", {}, 0.035},
-        {"wide", "rect:at=0.5,5,0;aim=0,0,0;up=0,0,1;size=2x0.5;radiance=10", {}, 0.045},
-        {"high", "rect:at=0.5,5,0;aim=0,0,0;up=0,0,1;size=0.4x1.6;radiance=10", {}, 0.045},
-        {"disk", "disk:at=0.5,5,0;aim=0,0,0;radius=0.5;radiance=10", {}, 0.035},
-        {"sphere", "sphere:at=0.5,5,0;radius=0.5;radiance=10", {}, 0.035},
-        {"half", "rect:at=0.5,5,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=10",
-         {{"mlsm.halfResolution", "true"}}, 0.06},
-        {"antialias", "rect:at=0.5,5,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=10",
-         {{"mlsm.antialias", "true"}}, 0.035}};
+    } cases[] = {{"square", "rect:at=0.5,5,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=10", {}, 0.035},
+                 {"wide", "rect:at=0.5,5,0;aim=0,0,0;up=0,0,1;size=2x0.5;radiance=10", {}, 0.045},
+                 {"high", "rect:at=0.5,5,0;aim=0,0,0;up=0,0,1;size=0.4x1.6;radiance=10", {}, 0.045},
+                 {"disk", "disk:at=0.5,5,0;aim=0,0,0;radius=0.5;radiance=10", {}, 0.035},
+                 {"sphere", "sphere:at=0.5,5,0;radius=0.5;radiance=10", {}, 0.035},
+                 {"half",
+                  "rect:at=0.5,5,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=10",
+                  {{"mlsm.halfResolution", "true"}},
+                  0.06},
+                 {"antialias",
+                  "rect:at=0.5,5,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=10",
+                  {{"mlsm.antialias", "true"}},
+                  0.035}};
     for (const auto& c : cases) {
         auto setup = mlsmSetup();
         setup.light = c.light;
@@ -267,8 +268,7 @@ TEST(MlsmTest, AntialiasingFiltersOverThePixelEvenAtAPointLight) {
     setup.width = 32;
     setup.height = 24;
     const auto spreadOf = [&](const char* antialias) {
-        const auto run =
-            runWith(builder.scene(), setup, "mlsm", {{"mlsm.antialias", antialias}});
+        const auto run = runWith(builder.scene(), setup, "mlsm", {{"mlsm.antialias", antialias}});
         double sum = 0, squares = 0;
         std::size_t count = 0;
         for (std::size_t i = 0; i < run.pixels(); ++i) {
@@ -310,10 +310,11 @@ TEST(MlsmTest, ColouredPanesAndWhatStandsBehindThemAreThoseOfRays) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < run.pixels(); ++i)
         for (std::size_t c = 0; c < 3 && run.tested(i); ++c, ++count) {
-            squares += std::pow(run.visibility[c * run.stride + i] -
-                                    rays.visibility[c * run.stride + i], 2);
-            colour = std::max(colour, static_cast<double>(std::abs(
-                                          run.visibility[i] - run.visibility[run.stride + i])));
+            squares += std::pow(
+                run.visibility[c * run.stride + i] - rays.visibility[c * run.stride + i], 2);
+            colour = std::max(
+                colour,
+                static_cast<double>(std::abs(run.visibility[i] - run.visibility[run.stride + i])));
         }
     const double error = std::sqrt(squares / static_cast<double>(count));
     std::printf("[ RMSE     ] coloured panes: %.4f\n", error);
