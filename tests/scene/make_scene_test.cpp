@@ -220,7 +220,7 @@ TEST_P(FilteredSceneSlowTest, HoldsWhatItIsMadeToShowAndIsTheSameBytesTwice) {
     EXPECT_EQ(scene.lights.size(), 1U);
     EXPECT_EQ(scene.cameras.size(), 1U);
     if (expected.triangles > 0) {
-        EXPECT_EQ(casterTriangles(scene), expected.triangles);
+        EXPECT_EQ(triangleCount(scene, true), expected.triangles);
     }
     bool masked = false, coloured = false;
     for (const auto& m : scene.materials) {
