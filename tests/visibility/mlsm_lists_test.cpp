@@ -114,6 +114,25 @@ TEST(MlsmListsTest, BothBuildsAndPermutedTrianglesGiveTheSameBits) {
     }
 }
 
+TEST(MlsmListsTest, SurfacesAtTheSameDepthAreInTheOrderOfTheirOpacity) {
+    const auto panes = [](bool swapped) {
+        SceneBuilder builder;
+        builder.addQuad({-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
+        builder.addQuad({-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
+        auto& scene = builder.scene();
+        scene.materials[0].alphaMode = scene::AlphaMode::blend;
+        scene.materials.push_back(scene.materials[0]);
+        scene.materials[0].baseColor.w = 0.3F;
+        scene.materials[1].baseColor.w = 0.7F;
+        scene.meshes[swapped ? 0 : 1].primitives[0].material = 1;
+        return scene;
+    };
+    const auto first = runMlsm(panes(false), smallSetup()),
+               second = runMlsm(panes(true), smallSetup());
+    EXPECT_EQ(first.lists[0][32 * 64 + 32].size(), 2U);
+    EXPECT_TRUE(sameLists(first, second));
+}
+
 TEST(MlsmListsTest, ListsOfThousandsGrowAndAreSorted) {
     auto setup = smallSetup();
     setup.settings.maxLevel = 0;
