@@ -82,7 +82,7 @@ Mlsm::Mlsm(const TechniqueContext& context)
       frame_(context.device, "frame"),
       shared_(context.device, "multi_view"),
       program_(context.device, "mlsm"),
-      multiView_(shared_, settings_, context.width, context.height),
+      multiView_(shared_, settings_, context.width, context.height, context.fragmentRows),
       source_(std::make_unique<Source>(frame_, program_, settings_)),
       reader_(std::make_unique<Reader>(program_, settings_, *source_)),
       receivers_(

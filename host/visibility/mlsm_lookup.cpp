@@ -42,7 +42,7 @@ void MlsmLookup::run(const LightView& view, const MlsmReach& reach, int accumula
     lookup.stepY = static_cast<float>(reach.stepY);
     lookup.parts = reach.parts;
     lookup.accumulate = accumulate;
-    lookup.antialias = settings_.antialias ? 1 : 0;
+    lookup.antialias = settings_.antialias ? receivers.onScreen : 0;
     lookup.receiverWidth = receivers.width;
     lookup.pixelStep = settings_.halfResolution ? 2 : 1;
     const runtime::Range items{

@@ -44,6 +44,7 @@ MultiView::MultiView(const runtime::Program& multiView, const MapSettings& setti
     auto& r = receiverImage_;
     r.width = image_.receiverWidth;
     r.stride = image_.receiverStride;
+    r.onScreen = receivers;
     r.planes = Buffer<float>(*device_, "receivers", runtime::Shape{1, RECEIVER_PLANES, slots});
     r.hidden = Buffer<std::uint32_t>(*device_, "hidden tests", slots);
     maps32_ = Buffer<std::uint32_t>(*device_, "depth maps", 1);

@@ -46,6 +46,7 @@ class MapSource {
 struct ReceiverImage {
     int width = 0;                           ///< receivers in a row
     int stride = 0;                          ///< floats between planes
+    int onScreen = 0;                        ///< the first ones, neighbours as on the screen
     Buffer<float> planes;                    ///< [RECEIVER_PLANES, stride]
     Buffer<std::uint32_t> hidden;            ///< [channels, stride] tests that failed
     const Buffer<float>* samples = nullptr;  ///< [view, 2] kx, ky

@@ -58,7 +58,7 @@ typedef struct {
     float stepX, stepY; ///< from a part of the light to the next, in units of the filter size
     int parts;          ///< squares that the light is cut into
     int accumulate;     ///< MLSM_ADD or MLSM_MULTIPLY
-    int antialias;      ///< 1: filters are at least as wide as the pixel
+    int antialias;      ///< filters of the first so many receivers are at least as wide as their pixels
     int receiverWidth;  ///< receivers in a row
     float pixelStep;    ///< pixels between receivers
 } MlsmLookupParams;

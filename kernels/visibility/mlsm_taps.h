@@ -131,7 +131,9 @@ inline MlsmReceiver mlsmReceiverAt(const MultiViewParams* light, const LookupPar
     if (lookup->antialias) {
         const VF across = mlsmNeighbour(receiver, stride, pixel, 1, &r);
         const VF down = mlsmNeighbour(receiver, stride, pixel, lookup->receiverWidth, &r);
-        r.footprint = max(across, down) / lookup->pixelStep;
+        // Blended fragments have no neighbours
+        const VI onScreen = V_MASK(V_INDEX + pixel < lookup->antialias);
+        r.footprint = V_SELECT((VF)0.0f, max(across, down) / lookup->pixelStep, onScreen);
     }
     return r;
 }

@@ -132,7 +132,7 @@ std::vector<double> deviceVisibility(const Case& c, std::size_t stride) {
     map.lists = Buffer<std::uint32_t>(device(), "lists", upload.lists);
     map.fragments = Buffer<float>(device(), "fragments", upload.fragments);
     visibility::ReceiverImage receivers;
-    receivers.width = kReceivers;
+    receivers.width = receivers.onScreen = kReceivers;
     receivers.stride = static_cast<int>(stride);
     receivers.planes = Buffer<float>(device(), "receivers", planesOf(c, stride));
     const auto channels = static_cast<std::size_t>(c.variant.channels);
