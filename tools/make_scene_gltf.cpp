@@ -72,6 +72,21 @@ int GltfWriter::addAccessor(const std::vector<Element>& elements, int componentT
     return lastOf(document_["accessors"]);
 }
 
+int GltfWriter::addTexture(const Picture& picture, bool repeats) {
+    while (binary_.size() % 4 != 0) binary_.push_back(0);
+    const std::vector<uint8_t> png = toPng(picture);
+    document_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", png.size()}});
+    binary_.insert(binary_.end(), png.begin(), png.end());
+    document_["images"].push_back(
+        {{"bufferView", lastOf(document_["bufferViews"])}, {"mimeType", "image/png"}});
+    const int wrap = repeats ? 10497 : 33071;
+    document_["samplers"].push_back({{"wrapS", wrap}, {"wrapT", wrap}});
+    document_["textures"].push_back(
+        {{"source", lastOf(document_["images"])}, {"sampler", lastOf(document_["samplers"])}});
+    return lastOf(document_["textures"]);
+}
+
 int GltfWriter::addIndices(const std::vector<uint32_t>& indices, size_t vertexCount) {
     if (vertexCount > 65535)
         return addAccessor(indices, kUnsignedInt, "SCALAR", kElementArrayBuffer);
@@ -89,8 +104,11 @@ json GltfWriter::addAttributes(const Mesh& mesh) {
     const int positions = addAccessor(mesh.positions, kFloat, "VEC3", kArrayBuffer);
     document_["accessors"][positions]["min"] = toJson(low);
     document_["accessors"][positions]["max"] = toJson(high);
-    return {{"POSITION", positions},
-            {"NORMAL", addAccessor(mesh.normals, kFloat, "VEC3", kArrayBuffer)}};
+    json attributes = {{"POSITION", positions},
+                       {"NORMAL", addAccessor(mesh.normals, kFloat, "VEC3", kArrayBuffer)}};
+    if (!mesh.uvs.empty())
+        attributes["TEXCOORD_0"] = addAccessor(mesh.uvs, kFloat, "VEC2", kArrayBuffer);
+    return attributes;
 }
 
 int GltfWriter::addMesh(std::string_view name, const Mesh& mesh, int material) {

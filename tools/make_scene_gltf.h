@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "make_scene_cloth.h"
+#include "make_scene_png.h"
 #include "make_scene_pose.h"
 
 namespace tools {
@@ -24,6 +25,8 @@ class GltfWriter {
 
     // Each returns the index of what it added.
     int addMaterial(std::string_view name, const glm::vec3& baseColor, float roughness);
+    // An embedded picture, clamped at its edges or repeated.
+    int addTexture(const Picture& picture, bool repeats);
     int addMesh(std::string_view name, const Mesh& mesh, int material);
     // All materials index the same vertices, as many exporters have it.
     int addFigureMesh(std::string_view name, const Figure& figure);

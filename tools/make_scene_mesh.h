@@ -14,6 +14,7 @@ namespace tools {
 struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  // empty until withNormals
+    std::vector<glm::vec2> uvs;      // empty: no texture
     std::vector<uint32_t> indices;   // [triangles, 3]
 
     size_t triangleCount() const { return indices.size() / 3; }

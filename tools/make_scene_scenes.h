@@ -28,6 +28,13 @@ void makeDragon(GltfWriter& writer);
 void makeCoaster(GltfWriter& writer);
 void makeChurch(GltfWriter& writer);
 
+// Stand-ins for the scenes of [MLSM]: its figures 1, 11, 12, 16 and 17, made for what they show.
+void makeHall(GltfWriter& writer);
+void makeStreet(GltfWriter& writer);
+void makeFoliage(GltfWriter& writer);
+void makeFence(GltfWriter& writer);
+void makeWindow(GltfWriter& writer);
+
 struct NamedScene {
     std::string_view name;
     void (*make)(GltfWriter&);
@@ -40,7 +47,9 @@ inline constexpr NamedScene kScenes[] = {
     {"mvss6", makeMvss6},         {"tree", makeTree},
     {"tower", makeTower},         {"toys", makeToys},
     {"dragon", makeDragon},       {"coaster", makeCoaster},
-    {"church", makeChurch},
+    {"church", makeChurch},       {"hall", makeHall},
+    {"street", makeStreet},       {"foliage", makeFoliage},
+    {"fence", makeFence},         {"window", makeWindow},
 };
 
 }  // namespace tools

@@ -37,6 +37,12 @@ const std::vector<Table>& tables() {
         {"4dr-exactness", "bits of raster4d that differ from Embree's, decided in double",
          fourdExactness},
 #endif
+        {"mlsm-table1", "[MLSM] table 1: stages of mlsm by its settings, hall", mlsmTable1},
+        {"mlsm-table2", "[MLSM] table 2: the same, street", mlsmTable2},
+        {"mlsm-table3", "[MLSM] table 3: pyramid and stack at two sizes, hall and street",
+         mlsmTable3},
+        {"mlsm-table4", "[MLSM] table 4: essm, mlsm by resolution and rays, three scenes",
+         mlsmTable4},
     };
     return list;
 }

@@ -61,5 +61,9 @@ nlohmann::json fourdTable6(const Request& request);
 nlohmann::json fourdTable8(const Request& request);
 nlohmann::json fourdExactness(const Request& request);
 #endif
+nlohmann::json mlsmTable1(const Request& request);
+nlohmann::json mlsmTable2(const Request& request);
+nlohmann::json mlsmTable3(const Request& request);
+nlohmann::json mlsmTable4(const Request& request);
 
 }  // namespace penumbra::papers

@@ -6,7 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <utility>
+#include <optional>
+#include <tuple>
 
 namespace penumbra::geometry {
 namespace {
@@ -47,8 +48,19 @@ std::uint32_t averageTexel(const std::uint32_t (&texels)[4], bool srgb) {
     return packed;
 }
 
-/// Appends an image and its MIP levels down to 1 x 1; returns the number of levels.
-int appendImage(const scene::Image& image, bool srgb, std::vector<std::uint32_t>& texels) {
+/// Alpha becomes 255 where the alpha test passes, else 0; next to the cutoff, where the edge of
+/// what passes lies within the texel, something between.
+std::uint32_t testAlpha(std::uint32_t texel, float cutoff) {
+    constexpr float kSharpness = 8;
+    const float above = static_cast<float>(texel >> 24) / 255 - cutoff;
+    const auto share = std::clamp(kSharpness * above + 0.5F, 0.0F, 1.0F);
+    return (texel & 0xffffffU) | static_cast<std::uint32_t>(std::lround(255 * share)) << 24;
+}
+
+/// Appends an image and its MIP levels down to 1 x 1; returns the number of levels. With a cutoff,
+/// alpha of levels above 0 is the share of level 0 that passes the test.
+int appendImage(const scene::Image& image, bool srgb, std::optional<float> cutoff,
+                std::vector<std::uint32_t>& texels) {
     std::size_t level = texels.size();
     for (std::size_t i = 0; i + 3 < image.texels.size(); i += 4)
         texels.push_back(static_cast<std::uint32_t>(image.texels[i]) |
@@ -64,9 +76,11 @@ int appendImage(const scene::Image& image, bool srgb, std::vector<std::uint32_t>
                 const auto at = [&](int dx, int dy) {
                     const int sx = std::min(2 * x + dx, width - 1),
                               sy = std::min(2 * y + dy, height - 1);
-                    return texels[level +
-                                  static_cast<std::size_t>(sy) * static_cast<std::size_t>(width) +
-                                  static_cast<std::size_t>(sx)];
+                    const auto texel =
+                        texels[level +
+                               static_cast<std::size_t>(sy) * static_cast<std::size_t>(width) +
+                               static_cast<std::size_t>(sx)];
+                    return cutoff && levels == 1 ? testAlpha(texel, *cutoff) : texel;
                 };
                 texels.push_back(averageTexel({at(0, 0), at(1, 0), at(0, 1), at(1, 1)}, srgb));
             }
@@ -83,17 +97,18 @@ class TexturePacker {
     TexturePacker(const scene::Scene& scene, std::vector<std::uint32_t>& texels)
         : scene_(scene), texels_(texels) {}
 
-    shared::Texture pack(const scene::TextureRef& ref, bool srgb) {
+    shared::Texture pack(const scene::TextureRef& ref, bool srgb,
+                         std::optional<float> cutoff = {}) {
         shared::Texture t{};
         t.offset = -1;
         t.levels = 1;
         if (ref.image < 0) return t;
         const auto& image = scene_.images[static_cast<std::size_t>(ref.image)];
         if (image.texels.empty()) return t;
-        auto [entry, isNew] = packed_.try_emplace({ref.image, srgb});
+        auto [entry, isNew] = packed_.try_emplace({ref.image, srgb, cutoff});
         if (isNew) {
             entry->second.offset = static_cast<int>(texels_.size());
-            entry->second.levels = appendImage(image, srgb, texels_);
+            entry->second.levels = appendImage(image, srgb, cutoff, texels_);
         }
         t.offset = entry->second.offset;
         t.levels = entry->second.levels;
@@ -114,7 +129,7 @@ class TexturePacker {
     };
     const scene::Scene& scene_;
     std::vector<std::uint32_t>& texels_;
-    std::map<std::pair<int, bool>, Packed> packed_;
+    std::map<std::tuple<int, bool, std::optional<float>>, Packed> packed_;
 };
 
 /// True if every alpha between those of the texels blends.
@@ -144,7 +159,10 @@ MaterialArrays packMaterials(const scene::Scene& scene) {
     TexturePacker packer(scene, arrays.texels);
     for (const auto& m : scene.materials) {
         shared::Material out{};
-        out.baseColorTexture = packer.pack(m.baseColorTexture, true);
+        std::optional<float> cutoff;  // of the texture alone
+        if (m.alphaMode == scene::AlphaMode::mask)
+            cutoff = m.alphaCutoff / std::max(m.baseColor.w, 1e-6F);
+        out.baseColorTexture = packer.pack(m.baseColorTexture, true, cutoff);
         out.metallicRoughnessTexture = packer.pack(m.metallicRoughnessTexture, false);
         out.normalTexture = packer.pack(m.normalTexture, false);
         out.emissiveTexture = packer.pack(m.emissiveTexture, true);

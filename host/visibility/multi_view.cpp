@@ -44,6 +44,7 @@ MultiView::MultiView(const runtime::Program& multiView, const MapSettings& setti
     auto& r = receiverImage_;
     r.width = image_.receiverWidth;
     r.stride = image_.receiverStride;
+    r.onScreen = receivers;
     r.planes = Buffer<float>(*device_, "receivers", runtime::Shape{1, RECEIVER_PLANES, slots});
     r.hidden = Buffer<std::uint32_t>(*device_, "hidden tests", slots);
     maps32_ = Buffer<std::uint32_t>(*device_, "depth maps", 1);
@@ -139,6 +140,12 @@ void MultiView::run(const Inputs& inputs, const scene::AreaLight& views, MapSour
     image_.outsideState = trace ? STATE_OUTSIDE : STATE_TESTED;
     image_.countOutside = view.complete ? 0 : 1;
     if (image_.pixelStep > 1) receiverImage_.planes.fill(0);
+    if (reader.channels() > 1) {
+        const auto channels = static_cast<std::uint64_t>(reader.channels());
+        receiverImage_.hidden.grow(*device_, "hidden tests",
+                                   channels * static_cast<std::uint64_t>(image_.receiverStride));
+        receiverImage_.hidden.fill(0);
+    }
     receiverImage_.samples = &light.samples;
     const auto pixels = static_cast<std::uint64_t>(stride_);
     receivers_.launch({pixels}, {64}, image_, view.params, inputs.gbuffer.planes,
@@ -147,6 +154,20 @@ void MultiView::run(const Inputs& inputs, const scene::AreaLight& views, MapSour
     if (settings_.skipLit && reader.testsSamples())
         occupancy_.skip(inputs.mesh, view, image_.receiverStride, receiverImage_.planes);
 
+    if (source.makesMaps()) {
+        readMaps(inputs, view, source, reader);
+    } else {
+        source.fill({0, view.params.views, nullptr, nullptr});
+        profiler.beginStage("lighting");
+        reader.read(view, {0, view.params.views, nullptr, nullptr}, receiverImage_);
+    }
+    average(view.params.views * reader.weight(), reader.channels(), inputs.gbuffer, visibility);
+    if (trace) traceOutside(inputs, visibility);
+}
+
+void MultiView::readMaps(const Inputs& inputs, const LightView& view, MapSource& source,
+                         MapReader& reader) {
+    auto& profiler = device_->profiler();
     mapBytes_ += static_cast<std::uint64_t>(view.params.views) *
                  static_cast<std::uint64_t>(settings_.resolution) *
                  static_cast<std::uint64_t>(settings_.resolution) *
@@ -164,8 +185,6 @@ void MultiView::run(const Inputs& inputs, const scene::AreaLight& views, MapSour
         reader.read(view, maps, receiverImage_);
         if (inputs.depthMaps) keepMaps(view, maps, *inputs.depthMaps);
     }
-    average(view.params.views * reader.weight(), inputs.gbuffer, visibility);
-    if (trace) traceOutside(inputs, visibility);
 }
 
 void MultiView::traceOutside(const Inputs& inputs, Visibility& visibility) {
@@ -174,15 +193,16 @@ void MultiView::traceOutside(const Inputs& inputs, Visibility& visibility) {
     tracer_->pass.run(inputs, tracer_->bvh, STATE_OUTSIDE, false, visibility);
 }
 
-void MultiView::average(int tests, const GBuffer& gbuffer, Visibility& visibility) {
-    const runtime::Range pixels{static_cast<std::uint64_t>(stride_)};
+void MultiView::average(int tests, int channels, const GBuffer& gbuffer, Visibility& visibility) {
+    const runtime::Range items{static_cast<std::uint64_t>(stride_),
+                               static_cast<std::uint64_t>(channels)};
     if (image_.pixelStep > 1)
-        upsample_.launch(pixels, {64}, image_, 1, tests, gbuffer.planes, visibility.state,
+        upsample_.launch(items, {64}, image_, 1, tests, gbuffer.planes, visibility.state,
                          receiverImage_.hidden, visibility.planes);
     else
-        average_.launch(pixels, {64}, stride_, 1, tests, visibility.state, receiverImage_.hidden,
+        average_.launch(items, {64}, stride_, 1, tests, visibility.state, receiverImage_.hidden,
                         visibility.planes);
-    visibility.channels = 1;
+    visibility.channels = channels;
 }
 
 void MultiView::keepMaps(const LightView& view, const MapBatch& batch, DepthMaps& out) {

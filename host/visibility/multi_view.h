@@ -31,6 +31,9 @@ class MapSource {
                        Buffer<shared::MultiViewCounters>& counters) = 0;
     /// Pixels of the enlarged view per texel of a map, where the source looks through that view.
     virtual double density() const { return 1; }
+    /// False if it makes something else than depth maps: none are allocated, and fill is called
+    /// once.
+    virtual bool makesMaps() const { return true; }
     /// Enqueues filling all maps of the batch: maps32 where needsWideMaps(), else the narrower one.
     virtual void fill(const MapBatch& batch) = 0;
     /// True if only 32-bit maps can be filled: 16-bit ones are packed from them.
@@ -43,8 +46,9 @@ class MapSource {
 struct ReceiverImage {
     int width = 0;                           ///< receivers in a row
     int stride = 0;                          ///< floats between planes
+    int onScreen = 0;                        ///< the first ones, neighbours as on the screen
     Buffer<float> planes;                    ///< [RECEIVER_PLANES, stride]
-    Buffer<std::uint32_t> hidden;            ///< [stride] tests that failed
+    Buffer<std::uint32_t> hidden;            ///< [channels, stride] tests that failed
     const Buffer<float>* samples = nullptr;  ///< [view, 2] kx, ky
 };
 
@@ -55,6 +59,8 @@ class MapReader {
     /// True if it looks for nothing but what hides a sample: receivers that no caster can shadow
     /// may be left out.
     virtual bool testsSamples() const { return false; }
+    /// Of visibility; more than 1 where what hides a receiver has colour.
+    virtual int channels() const { return 1; }
     /// Tests of a receiver in each map: visibility is 1 - hidden / (maps x weight).
     virtual int weight() const = 0;
     /// Enqueues adding the failed tests of the batch's maps to receivers.hidden.
@@ -100,8 +106,10 @@ class MultiView {
     int batchSize(const LightView& view, bool wide) const;
     void allocateMaps(const LightView& view, int batch, bool wide);
     void pack(const LightView& view, const MapBatch& batch);
+    void readMaps(const Inputs& inputs, const LightView& view, MapSource& source,
+                  MapReader& reader);
     void traceOutside(const Inputs& inputs, Visibility& visibility);
-    void average(int tests, const GBuffer& gbuffer, Visibility& visibility);
+    void average(int tests, int channels, const GBuffer& gbuffer, Visibility& visibility);
     void keepMaps(const LightView& view, const MapBatch& batch, DepthMaps& out);
 
     runtime::Device* device_;

@@ -2,6 +2,7 @@
 // The only list of techniques: a line here gives the CLI value, its settings, the shared test suite
 // and the benchmark of whole frames.
 #include "host/visibility/essm.h"
+#include "host/visibility/mlsm.h"
 #include "host/visibility/mvr.h"
 #include "host/visibility/mvss.h"
 #include "host/visibility/none.h"
@@ -52,6 +53,14 @@ const std::vector<TechniqueEntry>& techniques() {
          "shadows, a "
          "grid of the pyramid's texels in wide penumbrae",
          describeSettings<EssmSettings>, Essm::plannedBytes, make<Essm>},
+        {"mlsm",
+         "filtered multi-layer shadow maps: all fragments before the light's centre, filtered "
+         "beforehand, with opacity and colour",
+         "[MLSM]",
+         "what only other points of the light see casts no shadow; penumbrae that overlap add up "
+         "(accumulateLookup=multiply where occluders lie behind one another); thin parts between "
+         "texels",
+         describeSettings<MlsmSettings>, Mlsm::plannedBytes, make<Mlsm>},
         {"raster4d",
          "exact: triangles and receivers meet in the light's grid and give a bit per light sample, "
          "a "

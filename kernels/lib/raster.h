@@ -128,7 +128,7 @@ inline int rasterSetup(const RasterView* view, uint flags, RasterVertex v0, Rast
     if (area == 0) return 0;
     const uint clockwise = (area > 0) ^ ((flags & DRAW_MIRRORED) != 0);
     const uint front = clockwise == view->frontIsClockwise;
-    if (flags & (front ? view->cullFront : view->cullBack)) return 0;
+    if (!(flags & view->keepBoth) && (flags & (front ? view->cullFront : view->cullBack))) return 0;
     if (area < 0) {
         int swap = x1; x1 = x2; x2 = swap;
         swap = y1; y1 = y2; y2 = swap;

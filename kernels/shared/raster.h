@@ -23,7 +23,8 @@ typedef struct {
     uint frontIsClockwise;  ///< 1: front faces turn clockwise on the screen
     uint tileCapacity;   ///< entries that the list of large triangles' tiles holds
     int conservative;    ///< 1: all pixels that a triangle touches, not those whose centre it holds
-    int unused[3];
+    uint keepBoth;       ///< both faces of draws with any of these flags are kept all the same
+    int unused[2];
 } RasterView;
 SHARED_STRUCT(RasterView, 112)
 

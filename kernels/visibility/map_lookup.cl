@@ -69,16 +69,16 @@ kernel void map_pack(const uint count, global const uint* restrict wide, global 
 #define LOOKUP_DEPTH(bits) (V_TO_FLOAT(bits) * (1.0f / 65535.0f))
 #include "visibility/map_lookup.inl"
 
-/// visibility [stride]: share of the tests passed, 1 where nothing was to be tested.
-/// weight: sum of the weights of one view's tests.
+/// visibility [channels, stride]: share of the tests passed, 1 where nothing was to be tested. One work-item per
+/// pixel and channel; hidden [channels, stride]; weight: sum of the weights of one view's tests.
 kernel void map_average(const int stride, const int views, const int weight,
                         global const uint* restrict state, global const uint* restrict hidden,
                         global float* restrict visibility) {
-    const int pixel = get_global_id(0);
+    const int pixel = get_global_id(0), plane = (int)get_global_id(1) * stride;
     if (pixel >= stride) return;
     const float total = (float)views * (float)weight;
-    visibility[pixel] =
-        state[pixel] == STATE_TESTED ? (total - (float)hidden[pixel]) / total : 1.0f;
+    visibility[plane + pixel] =
+        state[pixel] == STATE_TESTED ? (total - (float)hidden[plane + pixel]) / total : 1.0f;
 }
 
 /// Weight of a neighbour's result: full on the same plane, none across edges or folds.
@@ -99,9 +99,11 @@ inline float similarity(global const float* restrict planes, int stride, int pix
 /// by how much they lie on the same surface; where none does, the nearest tested one.
 kernel void map_upsample(const ReceiverParams image, const int views, const int weight,
                          global const float* restrict planes, global const uint* restrict state,
-                         global const uint* restrict hidden, global float* restrict visibility) {
-    const int pixel = get_global_id(0), stride = image.planeStride;
+                         global const uint* restrict allHidden, global float* restrict allVisibility) {
+    const int pixel = get_global_id(0), channel = get_global_id(1), stride = image.planeStride;
     if (pixel >= stride) return;
+    global const uint* hidden = allHidden + channel * image.receiverStride;
+    global float* visibility = allVisibility + channel * stride;
     visibility[pixel] = 1.0f;
     if (state[pixel] != STATE_TESTED) return;
     const int x = pixel % image.width, y = pixel / image.width, rows = image.height - image.fragmentRows;

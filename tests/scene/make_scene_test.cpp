@@ -194,6 +194,47 @@ TEST_P(ExhibitSceneSlowTest, HasThePapersSizeDiagonalAndLight) {
 INSTANTIATE_TEST_SUITE_P(Papers, ExhibitSceneSlowTest, testing::ValuesIn(kExhibitScenes),
                          [](const auto& test) { return test.param.name; });
 
+/// Stand-ins for the scenes of [MLSM].
+struct FilteredScene {
+    const char* name;
+    double triangles;  ///< 0: not told
+    bool masked, coloured;
+};
+
+const FilteredScene kFilteredScenes[] = {{"hall", 0, false, false},
+                                         {"street", 400000, false, false},
+                                         {"foliage", 0, true, false},
+                                         {"fence", 0, true, false},
+                                         {"window", 0, false, true}};
+
+class FilteredSceneSlowTest : public testing::TestWithParam<FilteredScene> {};
+
+TEST_P(FilteredSceneSlowTest, HoldsWhatItIsMadeToShowAndIsTheSameBytesTwice) {
+    const FilteredScene& expected = GetParam();
+    const std::string path = temporaryFolder(expected.name) + "/scene.glb", again = path + ".again";
+    ASSERT_EQ(runTool(path + " " + expected.name), 0);
+    ASSERT_EQ(runTool(again + " " + expected.name), 0);
+    EXPECT_TRUE(readBytes(path) == readBytes(again)) << "two runs gave different bytes";
+    const scene::Scene scene = scene::loadGltf(path);
+    EXPECT_EQ(scene.warnings, std::vector<std::string>());
+    EXPECT_EQ(scene.lights.size(), 1U);
+    EXPECT_EQ(scene.cameras.size(), 1U);
+    if (expected.triangles > 0) {
+        EXPECT_EQ(triangleCount(scene, true), expected.triangles);
+    }
+    bool masked = false, coloured = false;
+    for (const auto& m : scene.materials) {
+        masked |= m.alphaMode == scene::AlphaMode::mask && m.baseColorTexture.image >= 0;
+        coloured |= m.transmission > 0;
+    }
+    EXPECT_EQ(masked, expected.masked);
+    EXPECT_EQ(coloured, expected.coloured);
+    EXPECT_NEAR(scene::clipBounds(scene, {}).low.y, 0, 0.06) << "it stands on the ground";
+}
+
+INSTANTIATE_TEST_SUITE_P(Mlsm, FilteredSceneSlowTest, testing::ValuesIn(kFilteredScenes),
+                         [](const auto& test) { return test.param.name; });
+
 TEST(MakeSceneTest, UnknownNamesAreRefusedWithTheNamesThatExist) {
     const std::string folder = temporaryFolder("make-scene"), errors = folder + "/errors";
     EXPECT_EQ(runTool(folder + "/a.glb castle", errors), 2);
@@ -202,6 +243,8 @@ TEST(MakeSceneTest, UnknownNamesAreRefusedWithTheNamesThatExist) {
     for (const PaperScene& scene : kPaperScenes)
         EXPECT_NE(message.find(scene.name), std::string::npos) << message;
     for (const ExhibitScene& scene : kExhibitScenes)
+        EXPECT_NE(message.find(scene.name), std::string::npos) << message;
+    for (const FilteredScene& scene : kFilteredScenes)
         EXPECT_NE(message.find(scene.name), std::string::npos) << message;
     EXPECT_EQ(runTool(""), 2);
 }
