@@ -33,7 +33,7 @@ const std::vector<float>& planeOf(const Frame& frame, const std::string& name) {
 }
 
 std::vector<MaskScene::Receiver> receiversOf(const RenderOptions& options,
-                                             const std::vector<glm::vec3>& samples) {
+                                             const std::vector<glm::dvec3>& samples) {
     RenderOptions plain = options;
     plain.technique = "none";
     plain.settings.clear();
@@ -52,7 +52,7 @@ std::vector<MaskScene::Receiver> receiversOf(const RenderOptions& options,
         if (!std::isfinite(depth[i])) continue;
         const glm::vec3 place = vectorAt("P", i), normal = vectorAt("N", i);
         const bool faces = std::any_of(samples.begin(), samples.end(), [&](const auto& sample) {
-            return glm::dot(normal, sample - place) > 0;
+            return glm::dot(normal, glm::vec3(sample) - place) > 0;
         });
         if (faces) receivers.push_back({place + normal * offset, normal, i});
     }
@@ -71,7 +71,7 @@ EmbreeFrame traceFrame(RenderOptions options, int columns, int rows) {
     choice.pattern = scene::parsePattern(options.lightPattern);
     choice = scene::parseSampleCount(options.lightSamples, choice);
     const auto light = scene::lightsAt(scene, pose, bounds, choice).at(0);
-    std::vector<glm::vec3> samples;
+    std::vector<glm::dvec3> samples;
     for (const auto& s : light.samples)
         samples.emplace_back(light.centre + s.x * light.axisX + s.y * light.axisY);
     const auto receivers = receiversOf(options, samples);
