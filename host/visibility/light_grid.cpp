@@ -60,14 +60,15 @@ LightGrid gridOf(const scene::AreaLight& light, const Size& size, bool centred) 
     const auto cells = static_cast<std::size_t>(size.cells());
     grid.sample.assign(cells, -1);
     grid.position.resize(cells);
-    for (std::size_t cell = 0; cell < cells; ++cell)
-        grid.position[cell] = {static_cast<float>(cell % static_cast<std::size_t>(size.columns)),
-                               static_cast<float>(cell / static_cast<std::size_t>(size.columns))};
+    for (int row = 0; row < size.rows; ++row)
+        for (int column = 0; column < size.columns; ++column)
+            grid.position[grid.cellAt(row, column)] = {static_cast<float>(column),
+                                                       static_cast<float>(row)};
     for (std::size_t i = 0; i < light.samples.size(); ++i) {
         const glm::dvec2 at = inCells(light, light.samples[i], size);
         const int column = std::clamp(static_cast<int>(at.x), 0, size.columns - 1);
         const int row = std::clamp(static_cast<int>(at.y), 0, size.rows - 1);
-        const auto cell = static_cast<std::size_t>(row * size.columns + column);
+        const std::size_t cell = grid.cellAt(row, column);
         grid.sample[cell] = static_cast<int>(i);
         if (!centred)
             grid.position[cell] = {static_cast<float>(at.x - 0.5), static_cast<float>(at.y - 0.5)};

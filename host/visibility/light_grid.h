@@ -18,6 +18,10 @@ struct LightGrid {
     std::vector<glm::vec2> position;  ///< [rows, columns] grid coordinates of the sample
     double cellWidth = 1, cellHeight = 1;  ///< metres
     int words() const { return columns > 32 ? 2 : 1; }
+    std::size_t cellAt(int row, int column) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(column);
+    }
 };
 
 /// The smallest grid of at most 64 x 64 cells that keeps the light's samples apart; one with all

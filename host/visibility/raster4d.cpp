@@ -160,9 +160,10 @@ void LightCells::place(runtime::Device& device, const scene::AreaLight& newLight
     std::vector<std::uint32_t> without(static_cast<std::size_t>(grid.words() * grid.rows), ~0U);
     for (int row = 0; row < grid.rows; ++row)
         for (int column = 0; column < grid.columns; ++column)
-            if (grid.sample[static_cast<std::size_t>(row * grid.columns + column)] >= 0)
-                without[static_cast<std::size_t>(column / 32 * grid.rows + row)] &=
-                    ~(1U << (column % 32));
+            if (grid.sample[grid.cellAt(row, column)] >= 0) {
+                const int word = column / 32 * grid.rows + row;
+                without[static_cast<std::size_t>(word)] &= ~(1U << (column % 32));
+            }
     const auto cells = grid.sample.size();
     x.grow(device, "columns of samples", cells);
     y.grow(device, "rows of samples", cells);
@@ -200,7 +201,7 @@ void Raster4d::run(const Inputs& inputs, Visibility& visibility) {
 void Raster4d::runBins(const Inputs& inputs, const shared::Raster4dParams& params,
                        Visibility& visibility) {
     const auto& mesh = inputs.mesh;
-    const auto tile = static_cast<std::uint64_t>(params.tileGroups * R4_WIDTH);
+    const auto tile = static_cast<std::uint64_t>(params.tileGroups) * kWidth;
     const auto pixels = static_cast<std::uint64_t>(params.planeStride);
     bins_.launch({(pixels + tile - 1) / tile}, {1}, params, receivers_.image(),
                  inputs.gbuffer.planes, receivers_.planes(), receivers_.count(),

@@ -44,7 +44,8 @@ void Raster4dGrid::run(const Inputs& inputs, const Params& params, const LightRe
     const auto count = static_cast<std::uint64_t>(params.planeStride);
     const auto words = count * static_cast<std::uint64_t>(params.words * params.rows);
     const int rows = (settings_.grid + bands_ - 1) / bands_;
-    const auto pixels = static_cast<std::uint64_t>(settings_.grid * rows);
+    const auto pixels =
+        static_cast<std::uint64_t>(settings_.grid) * static_cast<std::uint64_t>(rows);
     receiverMasks_.grow(*device_, "receivers' masks", words);
     receiverMasks_.fill(0, words);
     for (auto* lists : {&receiverLists_, &triangleLists_}) {
