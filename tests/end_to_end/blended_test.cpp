@@ -238,7 +238,7 @@ TEST(BlendedFrameTest, PermutedTrianglesGiveTheSameFrame) {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < 150; ++i) {
         indices.push_back(i);
-        corners.emplace_back(at(random), at(random), i / 3 % 4 ? at(random) : 0.5F);
+        corners.push_back({at(random), at(random), i / 3 % 4 ? at(random) : 0.5F});
     }
     const int node = builder.addMesh(corners, indices);
     auto& scene = builder.scene();
@@ -251,7 +251,7 @@ TEST(BlendedFrameTest, PermutedTrianglesGiveTheSameFrame) {
         scene.meshes[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(node)].mesh)]
             .primitives[0];
     for (std::size_t i = 0; i < p.positions.size(); ++i)
-        p.colors.emplace_back(unit(random), unit(random), unit(random), 1);
+        p.colors.push_back({unit(random), unit(random), unit(random), 1});
     const auto first = Pipeline(frontOptions("raytrace"), scene).render(0);
     std::reverse(p.indices.begin(), p.indices.end());
     for (std::size_t i = 0; i < p.indices.size(); i += 3) std::swap(p.indices[i], p.indices[i + 2]);

@@ -73,17 +73,17 @@ scene::Scene mixedTriangles(unsigned seed, int count) {
                          addMaterial(scene, textured), addMaterial(scene, glass),
                          addMaterial(scene, tinted)};
     for (int i = 0; i < count; ++i) {
-        const glm::vec3 first(at(random), at(random), deep(random));
+        const glm::vec3 first{at(random), at(random), deep(random)};
         std::vector<glm::vec3> corners{first};
         for (int c = 0; c < 2; ++c)
             corners.push_back(i % 3
-                                  ? glm::vec3(at(random), at(random), deep(random))
-                                  : first + glm::vec3(small(random), small(random), small(random)));
+                                  ? glm::vec3{at(random), at(random), deep(random)}
+                                  : first + glm::vec3{small(random), small(random), small(random)});
         const int node = builder.addMesh(corners, {0, 1, 2});
         auto& p = primitiveOf(scene, node);
         p.material = i % 10 == 9 ? 0 : kinds[i % 4];
         for (std::size_t v = 0; v < p.positions.size(); ++v)
-            p.uvs[0].emplace_back(uv(random), uv(random));
+            p.uvs[0].push_back({uv(random), uv(random)});
     }
     return scene;
 }
@@ -158,7 +158,7 @@ TEST(ABuffer, InterpenetratingQuadsAreSortedAtEachPixel) {
     builder.material() = blendMaterial({1, 1, 1, 0.5F});
     std::vector<glm::dvec3> planes;
     for (int i = 0; i < 12; ++i) {
-        const glm::vec3 p(slope(random), slope(random), offset(random));
+        const glm::vec3 p{slope(random), slope(random), offset(random)};
         builder.addQuad({-4, -4, p.z - 4 * p.x - 4 * p.y}, {8, 0, 8 * p.x}, {0, 8, 8 * p.y});
         planes.emplace_back(p);
     }
@@ -219,7 +219,7 @@ TEST(ABuffer, PermutedTrianglesChangeNoByte) {
     for (int i = 0; i < 160; ++i)
         for (int c = 0; c < 3; ++c) {
             indices.push_back(static_cast<std::uint32_t>(corners.size()));
-            corners.emplace_back(at(random), at(random), i % 3 ? 0.0F : at(random));
+            corners.push_back({at(random), at(random), i % 3 ? 0.0F : at(random)});
         }
     builder.addMesh(corners, indices);
     auto& p = builder.scene().meshes[0].primitives[0];

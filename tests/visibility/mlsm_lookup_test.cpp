@@ -82,7 +82,7 @@ struct Case {
         PlaneReceiver r;
         const double z = view.near / between(0.15, 0.6);
         r.origin = {0.5 * z * between(-1, 1), 0.5 * z * between(-1, 1), z};
-        r.normal = glm::normalize(glm::dvec3(between(-0.5, 0.5), between(-0.5, 0.5), -1));
+        r.normal = glm::normalize(glm::dvec3{between(-0.5, 0.5), between(-0.5, 0.5), -1});
         if (receivers.size() % 9 == 0)  // partly below its own horizon
             r.normal = glm::normalize(
                 glm::cross(r.origin - glm::dvec3(between(-0.1, 0.1), 0, 0), glm::dvec3(0, 1, 0.2)));
