@@ -9,6 +9,7 @@
 #include "make_scene_exhibit.h"
 #include "make_scene_fight.h"
 #include "make_scene_scenes.h"
+#include "make_scene_toybox.h"
 
 namespace tools {
 
@@ -20,8 +21,7 @@ using nlohmann::json;
 namespace {
 
 constexpr size_t kTriangleCount = 263000, kSoldierTriangles = 84000;
-constexpr float kSeconds = 2 * kFightSeconds;
-constexpr float kCarouselHeight = 7.4F, kGymHeight = 11;  // the frame is the highest of all toys
+constexpr float kCarouselHeight = 7.4F;
 
 constexpr vec3 kRed(0.6F, 0.1F, 0.08F), kYellow(0.75F, 0.55F, 0.1F), kBlue(0.1F, 0.22F, 0.5F),
     kGreen(0.15F, 0.4F, 0.16F), kWhite(0.75F, 0.73F, 0.68F), kWood(0.5F, 0.33F, 0.18F);
@@ -32,53 +32,6 @@ const vec3& paintOf(int number) {
 }
 
 const quat kUpright = glm::angleAxis(glm::half_pi<float>(), vec3(1, 0, 0));
-
-// The floor that toys are put on, and the one animation of all.
-class Toybox {
-  public:
-    Toybox(GltfWriter& writer, Exhibit& exhibit, int animation)
-        : writer_(writer), exhibit_(exhibit), animation_(animation) {}
-
-    int addPlace(std::string_view name, const vec3& at, int parent = -1) {
-        return addUnder(writer_, parent, placedNode(name, at, yaw(0)));
-    }
-
-    // A part that does not move against its parent.
-    void add(std::string_view name, const Mesh& mesh, const vec3& colour, int parent,
-             float creaseDeg = 40) {
-        const int material = writer_.addMaterial(name, colour, 0.5F);
-        addProp(writer_, {{"name", name}}, withNormals(mesh, creaseDeg), material, parent);
-        exhibit_.count(mesh.triangleCount(), kGymHeight);
-    }
-
-    // `at` gives the rotation for a share of the loop.
-    template <typename Rotation>
-    void rotate(int node, const Rotation& at) {
-        std::vector<quat> keys;
-        for (const float time : times()) keys.push_back(at(time / kSeconds));
-        writer_.animateNodes(animation_, times(), {keys}, node);
-    }
-
-    template <typename Translation>
-    void move(int node, const Translation& at) {
-        std::vector<vec3> keys;
-        for (const float time : times()) keys.push_back(at(time / kSeconds));
-        writer_.animateTranslation(animation_, times(), keys, node);
-    }
-
-  private:
-    static std::vector<float> times() {
-        constexpr int kKeys = 96;
-        std::vector<float> times;
-        for (int key = 0; key <= kKeys; ++key)
-            times.push_back(kSeconds * static_cast<float>(key) / kKeys);
-        return times;
-    }
-
-    GltfWriter& writer_;
-    Exhibit& exhibit_;
-    int animation_;
-};
 
 void addSoldiers(GltfWriter& writer, Exhibit& exhibit) {
     Company company{
