@@ -4,7 +4,9 @@
 #include "host/scene/animation.h"
 #include "host/scene/bounds.h"
 #include "host/visibility/mlsm_filter.h"
-#include "tests/reference/mlsm_ref.h"
+#include "tests/reference/mlsm_filter_ref.h"
+#include "tests/reference/mlsm_lists_ref.h"
+#include "tests/reference/mlsm_lookup_ref.h"
 
 namespace penumbra::tests {
 

@@ -1,136 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "tests/reference/mlsm_ref.h"
+#include "tests/reference/mlsm_lookup_ref.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "tests/reference/flat_scene.h"
 
 namespace penumbra::tests {
 namespace {
 
 constexpr double kCluster = 0.5, kBehind = 0.5;  // of kernels/visibility/mlsm_lookup.cl
-
-MlsmFragment scaled(const MlsmFragment& f, double weight) {
-    return {f.depth,
-            f.coverage * weight,
-            {f.taken[0] * weight, f.taken[1] * weight, f.taken[2] * weight}};
-}
-
-void add(MlsmFragment& sum, const MlsmFragment& more) {
-    sum.coverage += more.coverage;
-    for (std::size_t c = 0; c < 3; ++c) sum.taken[c] += more.taken[c];
-}
-
-void sortLists(std::vector<MlsmList>& lists) {
-    for (auto& list : lists)
-        std::sort(list.begin(), list.end(), [](const MlsmFragment& a, const MlsmFragment& b) {
-            return a.depth != b.depth ? a.depth > b.depth : a.taken < b.taken;
-        });
-}
-
-/// Opacity of a material without textures.
-MlsmFragment opacityOf(const scene::Material& m) {
-    MlsmFragment f;
-    f.coverage = 1;
-    f.taken = {1, 1, 1};
-    if (m.alphaMode == scene::AlphaMode::opaque && m.transmission == 0) return f;
-    const double alpha = m.alphaMode == scene::AlphaMode::opaque ? 1 : m.baseColor.w;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double colour = m.baseColor[static_cast<glm::vec4::length_type>(c)];
-        const double through = m.transmission > 0 ? 1 - alpha + alpha * m.transmission * colour
-                                                  : (1 - alpha) * (1 - alpha + alpha * colour);
-        f.taken[c] = 1 - through;
-    }
-    return f;
-}
-
-}  // namespace
-
-std::vector<MlsmList> mlsmBaseReference(const scene::Scene& scene, const scene::AreaLight& light,
-                                        double near, double tanHalfFov, int resolution) {
-    std::vector<MlsmList> lists(static_cast<std::size_t>(resolution) * resolution);
-    for (const auto& triangle : flatTriangles(scene)) {
-        const int node = static_cast<int>(triangle.object) - 1;
-        if (!scene.nodes[static_cast<std::size_t>(node)].castShadow) continue;
-        for (std::size_t i = 0; i < lists.size(); ++i) {
-            const double x = (static_cast<double>(i % resolution) + 0.5) / resolution * 2 - 1;
-            const double y = (static_cast<double>(i / resolution) + 0.5) / resolution * 2 - 1;
-            // Of length 1 along the light's axis
-            const SightLine line{light.centre, light.axisZ + tanHalfFov * x * light.axisX +
-                                                   tanHalfFov * y * light.axisY};
-            const auto hit = hitPlane(triangle, line);
-            const auto& w = hit.weights;
-            if (!(hit.depth > 0) || std::min({w.x, w.y, w.z}) < 0) continue;
-            auto fragment = opacityOf(*triangle.material);
-            fragment.depth = std::min(near / hit.depth, 1.0);
-            lists[i].push_back(fragment);
-        }
-    }
-    sortLists(lists);
-    return lists;
-}
-
-MlsmFragment mlsmSumReference(int how, const MlsmFragment& sum, const MlsmFragment& more) {
-    MlsmFragment result = sum;
-    const auto each = [&](auto combine) {
-        result.coverage = combine(sum.coverage, more.coverage);
-        for (std::size_t c = 0; c < 3; ++c) result.taken[c] = combine(sum.taken[c], more.taken[c]);
-    };
-    if (how == MLSM_ADD) each([](double a, double b) { return a + b; });
-    if (how == MLSM_MAX) each([](double a, double b) { return std::max(a, b); });
-    if (how == MLSM_MULTIPLY) each([](double a, double b) { return 1 - (1 - a) * (1 - b); });
-    if (how != MLSM_COVER) return result;
-    const double beside = std::min(more.coverage, std::max(1 - sum.coverage, 0.0));
-    result.coverage += beside;
-    for (std::size_t c = 0; c < 3 && more.coverage > 0; ++c) {
-        const double opacity = more.taken[c] / more.coverage;
-        const double through = 1 - sum.taken[c] - beside * opacity;
-        result.taken[c] = 1 - through * (1 - std::min(more.coverage - beside, 1.0) * opacity);
-    }
-    return result;
-}
-
-std::vector<MlsmList> mlsmMergeReference(const std::vector<MlsmList>& below, int belowSize,
-                                         const shared::MlsmFilterParams& step, int size,
-                                         double epsilon, int how) {
-    std::vector<MlsmList> merged(static_cast<std::size_t>(size) * size);
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            std::vector<std::pair<MlsmFragment, std::size_t>> all;  // with the list's number
-            std::size_t number = 0;
-            for (const int ty : {step.tap0, step.tap1})
-                for (const int tx : {step.tap0, step.tap1}) {
-                    const int column = std::clamp(step.scale * x + tx, 0, belowSize - 1);
-                    const int row = std::clamp(step.scale * y + ty, 0, belowSize - 1);
-                    for (const auto& f : below[static_cast<std::size_t>(row * belowSize + column)])
-                        all.emplace_back(f, number);
-                    ++number;
-                }
-            std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-                return a.first.depth > b.first.depth;
-            });
-            auto& list = merged[static_cast<std::size_t>(y * size + x)];
-            for (std::size_t i = 0; i < all.size();) {
-                std::array<MlsmFragment, 4> sums{};
-                MlsmFragment out;
-                const double nearest = all[i].first.depth;
-                double members = 0;
-                for (; i < all.size() && all[i].first.depth >= nearest * (1 - epsilon);
-                     ++i, ++members) {
-                    auto& sum = sums[all[i].second];
-                    sum = mlsmSumReference(how, sum, all[i].first);
-                    out.depth += all[i].first.depth;
-                }
-                out.depth /= members;
-                for (const auto& sum : sums) add(out, scaled(sum, 0.25));
-                list.push_back(out);
-            }
-        }
-    return merged;
-}
-
-namespace {
 
 /// What comes through, fragment by fragment.
 class Light {
