@@ -24,11 +24,11 @@ typedef uint VU;
 #define V_INDEX (0)
 #define V_LANE(v, i) (v)
 #define V_GATHER_(T, p, i) ((T)((p)[i]))
+#define V_GATHER_NEAR(T, p, i, offset) ((T)((p)[(i) + (offset)]))
 #define V_AS_UINT as_uint
 #define V_AS_INT as_int
 #define V_AS_FLOAT as_float
 #define V_TO_INT convert_int
-#define V_TO_INT_RTE convert_int_rte
 #define V_TO_FLOAT convert_float
 #define V_LOAD_HALF(p, i) vload_half(i, p)
 #else
@@ -46,7 +46,6 @@ typedef LANES_JOIN(uint, LANES) VU;
 #define V_AS_INT LANES_JOIN(as_int, LANES)
 #define V_AS_FLOAT LANES_JOIN(as_float, LANES)
 #define V_TO_INT LANES_JOIN(convert_int, LANES)
-#define V_TO_INT_RTE LANES_JOIN(LANES_JOIN(convert_int, LANES), _rte)
 #define V_TO_FLOAT LANES_JOIN(convert_float, LANES)
 #define V_LOAD_HALF(p, i) LANES_JOIN(vload_half, LANES)(0, (p) + (i))
 #if LANES == 8
@@ -55,6 +54,10 @@ inline ulong lanesOr(VI mask) {
     const ulong2 half_ = w.lo | w.hi;
     return half_.x | half_.y;
 }
+// Gathers at i + offset: several offsets from the same i share the work of taking its lanes apart
+#define V_GATHER_NEAR(T, p, i, offset)                                                                         \
+    (T)((p)[(i).s0 + (offset)], (p)[(i).s1 + (offset)], (p)[(i).s2 + (offset)], (p)[(i).s3 + (offset)],        \
+        (p)[(i).s4 + (offset)], (p)[(i).s5 + (offset)], (p)[(i).s6 + (offset)], (p)[(i).s7 + (offset)])
 #define V_INDEX ((VI)(0, 1, 2, 3, 4, 5, 6, 7))
 #define V_GATHER_(T, p, i) \
     (T)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], (p)[(i).s7])
@@ -65,6 +68,11 @@ inline ulong lanesOr(VI mask) {
     const ulong2 quarter = half_.lo | half_.hi;
     return quarter.x | quarter.y;
 }
+#define V_GATHER_NEAR(T, p, i, offset)                                                                         \
+    (T)((p)[(i).s0 + (offset)], (p)[(i).s1 + (offset)], (p)[(i).s2 + (offset)], (p)[(i).s3 + (offset)],        \
+        (p)[(i).s4 + (offset)], (p)[(i).s5 + (offset)], (p)[(i).s6 + (offset)], (p)[(i).s7 + (offset)],        \
+        (p)[(i).s8 + (offset)], (p)[(i).s9 + (offset)], (p)[(i).sa + (offset)], (p)[(i).sb + (offset)],        \
+        (p)[(i).sc + (offset)], (p)[(i).sd + (offset)], (p)[(i).se + (offset)], (p)[(i).sf + (offset)])
 #define V_INDEX ((VI)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 #define V_GATHER_(T, p, i)                                                                          \
     (T)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6],  \

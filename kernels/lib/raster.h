@@ -113,14 +113,19 @@ inline RasterEdge rasterEdge(int xa, int ya, int xb, int yb, int conservative) {
     return e;
 }
 
+/// To the nearest sub-pixel; rint is an instruction where convert_int_rte is a dozen.
+inline int rasterSnap(float value) {
+    return convert_int(rint(value));
+}
+
 /// Sets up a clipped triangle; returns 0 if it is culled or covers nothing.
 inline int rasterSetup(const RasterView* view, uint flags, RasterVertex v0, RasterVertex v1,
                        RasterVertex v2, RasterTriangle* t) {
     const float scale = (float)(1 << RASTER_SUBPIXEL_BITS);
     const float r0 = 1.0f / v0.w, r1 = 1.0f / v1.w, r2 = 1.0f / v2.w;
-    int x0 = convert_int_rte(v0.x * r0 * scale), y0 = convert_int_rte(v0.y * r0 * scale);
-    int x1 = convert_int_rte(v1.x * r1 * scale), y1 = convert_int_rte(v1.y * r1 * scale);
-    int x2 = convert_int_rte(v2.x * r2 * scale), y2 = convert_int_rte(v2.y * r2 * scale);
+    int x0 = rasterSnap(v0.x * r0 * scale), y0 = rasterSnap(v0.y * r0 * scale);
+    int x1 = rasterSnap(v1.x * r1 * scale), y1 = rasterSnap(v1.y * r1 * scale);
+    int x2 = rasterSnap(v2.x * r2 * scale), y2 = rasterSnap(v2.y * r2 * scale);
     float d0 = v0.d * r0, d1 = v1.d * r1, d2 = v2.d * r2;
 
     // Rows run downwards: a positive area turns clockwise on the screen

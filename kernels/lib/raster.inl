@@ -5,7 +5,7 @@
 //   RASTER_BEGIN        statements at a work-item's start (local variables of the action)
 //   RASTER_TRIANGLE     statements before a triangle's fragments
 //   RASTER_FRAGMENT     statements per fragment; they see x, y, depth, triangle, draw, v (vertices
-//                       before clipping) and the kernel's parameters
+//                       before clipping; only of masked or blended draws) and the kernel's parameters
 //   RASTER_END          statements at a work-item's end
 //   RASTER_VERTICES     (optional) statements that fill v[3]; default: `view` applied to positions
 //
@@ -14,12 +14,8 @@
 // The list's counter counts past its capacity without writing: the host grows it and repeats.
 // Fragments come in no fixed order; actions must commute.
 
-#ifndef RASTER_CHUNK
-#ifdef ON_CPU
-#define RASTER_CHUNK 64  // triangles of a work-item
-#else
-#define RASTER_CHUNK 1
-#endif
+#ifndef RASTER_VERTICES_OF_VIEW
+#include "lib/raster_lanes.h"
 
 #define RASTER_VERTICES_OF_VIEW \
     for (int i = 0; i < 3; ++i) v[i] = rasterVertex(&view, positions, indices[3 * triangle + i]);
@@ -40,9 +36,13 @@ inline void rasterAppendTiles(const RasterView* view, global uint* tileCount, gl
 #endif
 #ifndef RASTER_VERTICES
 #define RASTER_VERTICES RASTER_VERTICES_OF_VIEW
+#if LANES > 1
+#define RASTER_IN_LANES
+#endif
 #endif
 
-/// One work-item per RASTER_CHUNK triangles: draws the small ones, lists the tiles of the others.
+/// One work-item per RASTER_CHUNK triangles: draws the small ones, lists the tiles of the others. In lanes, small
+/// opaque triangles wait in a queue.
 kernel void RASTER_KERNEL(const RasterView view, global const float* restrict positions,
                           global const uint* restrict indices, global const uint* restrict triangleDraw,
                           global const Draw* restrict draws, global uint* tileCount,
@@ -50,49 +50,94 @@ kernel void RASTER_KERNEL(const RasterView view, global const float* restrict po
     const uint begin = (uint)get_global_id(0) * RASTER_CHUNK;
     const uint end = min(begin + RASTER_CHUNK, (uint)view.triangleCount);
     RASTER_BEGIN
-    for (uint triangle = begin; triangle < end; ++triangle) {
-        const uint drawIndex = triangleDraw[triangle];
-        const Draw draw = draws[drawIndex];
-        if ((draw.flags & view.requireFlags) != view.requireFlags) continue;
-        RasterVertex v[3];
-        RASTER_VERTICES
-        const int kind = rasterClassify(&view, v);
-        if (kind == RASTER_REJECT) continue;
-        RasterTriangle t;
-        if (kind == RASTER_CLIP) {
-            RasterVertex corners[RASTER_MAX_CORNERS];
-            for (int i = 0; i < 3; ++i) corners[i] = v[i];
-            const int count = rasterClip(corners);
-            for (int part = 0; part + 2 < count; ++part)
-                if (rasterSetup(&view, draw.flags, corners[0], corners[part + 1], corners[part + 2], &t))
-                    rasterAppendTiles(&view, tileCount, tiles, &t, triangle, (uint)part);
-            continue;
-        }
-        if (!rasterSetup(&view, draw.flags, v[0], v[1], v[2], &t)) continue;
-        if (!t.small) {
-            rasterAppendTiles(&view, tileCount, tiles, &t, triangle, 0);
-            continue;
-        }
-        RASTER_TRIANGLE
-        int e0 = rasterEdgeAt(t.edge[0], t.minX, t.minY);
-        int e1 = rasterEdgeAt(t.edge[1], t.minX, t.minY);
-        int e2 = rasterEdgeAt(t.edge[2], t.minX, t.minY);
-        for (int y = t.minY; y <= t.maxY; ++y) {
-            for (int x = t.minX; x <= t.maxX; ++x) {
-                if ((e0 | e1 | e2) >= 0) {
-                    const float depth = rasterDepth(&t, x, y);
-                    RASTER_FRAGMENT
-                }
-                e0 += t.edge[0].a;
-                e1 += t.edge[1].a;
-                e2 += t.edge[2].a;
+#ifdef RASTER_IN_LANES
+    LaneQueue queue;
+    queue.count = 0;
+#endif
+    for (uint first = begin; first < end; first += LANES) {
+#ifdef RASTER_IN_LANES
+        LaneTriangles lanes;
+        VI drawn;
+        const VI others = laneTriangles(&view, positions, indices, triangleDraw, draws, first, end, &lanes, &drawn);
+        if (V_ANY(drawn)) lanePush(&queue, &lanes, drawn, first);
+        if (!V_ANY(others)) continue;
+#else
+        const VI others = V_MASK((VI)(int)first + V_INDEX < (VI)(int)end);
+#endif
+        int mask[LANES];
+        V_STORE(others, mask, 0);
+        for (int lane = 0; lane < LANES; ++lane) {
+            if (!mask[lane]) continue;
+            const uint triangle = first + (uint)lane;
+            const uint drawIndex = triangleDraw[triangle];
+            const Draw draw = draws[drawIndex];
+            if ((draw.flags & view.requireFlags) != view.requireFlags) continue;
+            RasterVertex v[3];
+            RASTER_VERTICES
+            const int kind = rasterClassify(&view, v);
+            if (kind == RASTER_REJECT) continue;
+            RasterTriangle t;
+            if (kind == RASTER_CLIP) {
+                RasterVertex corners[RASTER_MAX_CORNERS];
+                for (int i = 0; i < 3; ++i) corners[i] = v[i];
+                const int count = rasterClip(corners);
+                for (int part = 0; part + 2 < count; ++part)
+                    if (rasterSetup(&view, draw.flags, corners[0], corners[part + 1], corners[part + 2], &t))
+                        rasterAppendTiles(&view, tileCount, tiles, &t, triangle, (uint)part);
+                continue;
             }
-            const int back = t.maxX - t.minX + 1;
-            e0 += t.edge[0].b - back * t.edge[0].a;
-            e1 += t.edge[1].b - back * t.edge[1].a;
-            e2 += t.edge[2].b - back * t.edge[2].a;
+            if (!rasterSetup(&view, draw.flags, v[0], v[1], v[2], &t)) continue;
+            if (!t.small) {
+                rasterAppendTiles(&view, tileCount, tiles, &t, triangle, 0);
+                continue;
+            }
+            RASTER_TRIANGLE
+            int e0 = rasterEdgeAt(t.edge[0], t.minX, t.minY);
+            int e1 = rasterEdgeAt(t.edge[1], t.minX, t.minY);
+            int e2 = rasterEdgeAt(t.edge[2], t.minX, t.minY);
+            for (int y = t.minY; y <= t.maxY; ++y) {
+                for (int x = t.minX; x <= t.maxX; ++x) {
+                    if ((e0 | e1 | e2) >= 0) {
+                        const float depth = rasterDepth(&t, x, y);
+                        RASTER_FRAGMENT
+                    }
+                    e0 += t.edge[0].a;
+                    e1 += t.edge[1].a;
+                    e2 += t.edge[2].a;
+                }
+                const int back = t.maxX - t.minX + 1;
+                e0 += t.edge[0].b - back * t.edge[0].a;
+                e1 += t.edge[1].b - back * t.edge[1].a;
+                e2 += t.edge[2].b - back * t.edge[2].a;
+            }
         }
     }
+#ifdef RASTER_IN_LANES
+    for (int first = 0; first < queue.count; first += LANES) {
+        LaneTriangles lanes = laneAt(&queue, first, &view);
+        LaneWalk walk;
+        laneBegin(&walk, &lanes, V_MASK(V_INDEX < (VI)(queue.count - first)), view.conservative);
+        for (; V_ANY(walk.active); laneStep(&walk)) {
+            const VI covered = laneCovered(&walk);
+            if (!V_ANY(covered)) continue;
+            int mask[LANES], columns[LANES], rows[LANES];
+            float depths[LANES];
+            V_STORE(covered, mask, 0);
+            V_STORE(walk.x, columns, 0);
+            V_STORE(walk.y, rows, 0);
+            V_STORE(laneDepthAt(&walk.depth, walk.x, walk.y), depths, 0);
+            for (int lane = 0; lane < LANES; ++lane) {
+                if (!mask[lane]) continue;
+                const int x = columns[lane], y = rows[lane];
+                const float depth = depths[lane];
+                const uint triangle = (uint)queue.triangle[first + lane], drawIndex = triangleDraw[triangle];
+                const Draw draw = draws[drawIndex];
+                const RasterVertex v[3] = {{0}};
+                RASTER_FRAGMENT
+            }
+        }
+    }
+#endif
     RASTER_END
 }
 
@@ -149,3 +194,4 @@ kernel void RASTER_KERNEL_LARGE(const RasterView view, global const float* restr
 #undef RASTER_FRAGMENT
 #undef RASTER_END
 #undef RASTER_VERTICES
+#undef RASTER_IN_LANES

@@ -60,6 +60,17 @@ kernel void map_pack(const uint count, global const uint* restrict wide, global 
     if (texel < count) maps[texel] = (ushort)wide[texel];
 }
 
+// Sets `tests` to the weights of the taps that hide, by HIDES(dx, dy)
+#define LOOKUP_TAPS                                                                                      \
+    if (bilinear) {                                                                                      \
+        const VI fx = V_TO_INT((u - column0) * 16.0f), fy = V_TO_INT((v - row0) * 16.0f);                \
+        tests = (HIDES(0, 0) & ((16 - fx) * (16 - fy))) + (HIDES(1, 0) & (fx * (16 - fy))) +             \
+                (HIDES(0, 1) & ((16 - fx) * fy)) + (HIDES(1, 1) & (fx * fy));                            \
+    } else {                                                                                             \
+        tests = -HIDES(0, 0);                                                                            \
+        if (lookup.pcf >= 5) tests -= HIDES(-1, 0) + HIDES(1, 0) + HIDES(0, -1) + HIDES(0, 1);           \
+        if (lookup.pcf >= 9) tests -= HIDES(-1, -1) + HIDES(1, -1) + HIDES(-1, 1) + HIDES(1, 1);         \
+    }
 #define LOOKUP_KERNEL map_lookup
 #define LOOKUP_TEXEL uint
 #define LOOKUP_DEPTH(bits) V_AS_FLOAT(bits)

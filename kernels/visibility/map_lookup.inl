@@ -11,6 +11,12 @@ inline VI LANES_JOIN(LOOKUP_KERNEL, _hides)(global const LOOKUP_TEXEL* restrict 
     return V_MASK(depth > max(reference, (VF)0.0f)) & inside;
 }
 
+/// The same where the taps of all lanes lie inside: that of this one is `offset` texels from `texel`.
+inline VI LANES_JOIN(LOOKUP_KERNEL, _hidesInside)(global const LOOKUP_TEXEL* restrict map, VI texel, int offset,
+                                                  VF reference) {
+    return V_MASK(LOOKUP_DEPTH(V_GATHER_NEAR(VU, map, texel, offset)) > max(reference, (VF)0.0f));
+}
+
 /// One work-item per LANES pixels: adds the hidden tests of the launch's views to hidden [stride].
 kernel void LOOKUP_KERNEL(const MultiViewParams params, const LookupParams lookup, const int stride,
                           global const float* restrict receiver, global const float* restrict samples,
@@ -20,8 +26,10 @@ kernel void LOOKUP_KERNEL(const MultiViewParams params, const LookupParams looku
     const VF w = V_LOAD(receiver, RECEIVER_W * stride + pixel);
     const VI tested = V_MASK(w > 0.0f);
     if (!V_ANY(tested)) return;
-    const VF a = V_LOAD(receiver, RECEIVER_A * stride + pixel);
-    const VF b = V_LOAD(receiver, RECEIVER_B * stride + pixel);
+    // Lanes that are not tested look into the middle of the map
+    const VF middle = (VF)params.centre;
+    const VF a = V_SELECT(middle, V_LOAD(receiver, RECEIVER_A * stride + pixel), tested);
+    const VF b = V_SELECT(middle, V_LOAD(receiver, RECEIVER_B * stride + pixel), tested);
     const VF gradientX = V_LOAD(receiver, RECEIVER_GRADIENT_X * stride + pixel);
     const VF gradientY = V_LOAD(receiver, RECEIVER_GRADIENT_Y * stride + pixel);
     const VF facing = V_LOAD(receiver, RECEIVER_FACING * stride + pixel);
@@ -46,21 +54,20 @@ kernel void LOOKUP_KERNEL(const MultiViewParams params, const LookupParams looku
         const VF slope = (fabs(stepX) + fabs(stepY)) * (0.5f * lookup.slopeBias);
         const VF reference = w + stepX * (column0 + (0.5f - shift) - u) +
                              stepY * (row0 + (0.5f - shift) - v) + slope + margin;
-        const VI column = V_TO_INT(column0), row = V_TO_INT(row0);
-#define HIDES(dx, dy)                                                                              \
-    LANES_JOIN(LOOKUP_KERNEL, _hides)(map, size, column + (dx), row + (dy),                        \
-                                      reference + stepX * (float)(dx) + stepY * (float)(dy))
+        const VI column = V_TO_INT(column0), row = V_TO_INT(row0), texel = row * size + column;
+        const VI inside = V_MASK(column > 0) & V_MASK(column < size - 1) & V_MASK(row > 0) & V_MASK(row < size - 1);
         VI tests;
-        if (bilinear) {
-            const VI fx = V_TO_INT((u - column0) * 16.0f), fy = V_TO_INT((v - row0) * 16.0f);
-            tests = (HIDES(0, 0) & ((16 - fx) * (16 - fy))) + (HIDES(1, 0) & (fx * (16 - fy))) +
-                    (HIDES(0, 1) & ((16 - fx) * fy)) + (HIDES(1, 1) & (fx * fy));
-        } else {
-            tests = -HIDES(0, 0);
-            if (lookup.pcf >= 5) tests -= HIDES(-1, 0) + HIDES(1, 0) + HIDES(0, -1) + HIDES(0, 1);
-            if (lookup.pcf >= 9) tests -= HIDES(-1, -1) + HIDES(1, -1) + HIDES(-1, 1) + HIDES(1, 1);
-        }
+#define REFERENCE(dx, dy) (reference + stepX * (float)(dx) + stepY * (float)(dy))
+        if (V_ALL(inside)) {
+#define HIDES(dx, dy) LANES_JOIN(LOOKUP_KERNEL, _hidesInside)(map, texel, (dy)*size + (dx), REFERENCE(dx, dy))
+            LOOKUP_TAPS
 #undef HIDES
+        } else {
+#define HIDES(dx, dy) LANES_JOIN(LOOKUP_KERNEL, _hides)(map, size, column + (dx), row + (dy), REFERENCE(dx, dy))
+            LOOKUP_TAPS
+#undef HIDES
+        }
+#undef REFERENCE
         // Samples below the receiver's plane are hidden by the receiver itself
         count += V_SELECT((VI)weight, tests, above);
     }

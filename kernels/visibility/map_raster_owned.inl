@@ -24,24 +24,15 @@ inline void OWNED(mapDrawLanes)(const MultiViewParams* light, const MapRasterPar
     }
     LaneTriangles t;
     laneSnap(&t, a, b, w, kx, ky);
-    laneBox(&t, light->resolution, p->conservative);
-    laneOrient(&t);
-    VI stepX[3], stepY[3], e[3];
-    for (int i = 0; i < 3; ++i) e[i] = laneEdge(&t, i, p->conservative, &stepX[i], &stepY[i]);
-    const LaneDepth plane = laneDepth(&t);
-    const VF bias = fma((VF)p->biasSlope, max(fabs(plane.depthX), fabs(plane.depthY)), (VF)p->biasConstant);
-    const VI back = t.maxX - t.minX;
-    VI x = t.minX, y = t.minY;
-    while (V_ANY(active)) {
-        const VI covered = active & V_MASK((e[0] | e[1] | e[2]) >= 0);
-        if (V_ANY(covered))
-            OWNED(mapStore)(map, y * light->resolution + x, laneBits(light, laneDepthAt(&plane, x, y) - bias), covered);
-        // To the next column, or to the first one of the next row
-        const VI turn = V_MASK(x >= t.maxX);
-        for (int i = 0; i < 3; ++i) e[i] += V_SELECT(stepX[i], stepY[i] - back * stepX[i], turn);
-        x = V_SELECT(x + 1, t.minX, turn);
-        y -= turn;
-        active &= V_MASK(y <= t.maxY);
+    laneBox(&t, light->resolution, light->resolution, p->conservative);
+    LaneWalk walk;
+    laneBegin(&walk, &t, active, p->conservative);
+    const VF bias = fma((VF)p->biasSlope, max(fabs(walk.depth.depthX), fabs(walk.depth.depthY)), (VF)p->biasConstant);
+    for (; V_ANY(walk.active); laneStep(&walk)) {
+        const VI covered = laneCovered(&walk);
+        if (!V_ANY(covered)) continue;
+        const VF depth = laneDepthAt(&walk.depth, walk.x, walk.y) - bias;
+        OWNED(mapStore)(map, walk.y * light->resolution + walk.x, laneBits(light, depth), covered);
     }
 }
 
@@ -64,7 +55,7 @@ inline void OWNED(mapDrawPlain)(const MultiViewParams* light, const MapRasterPar
         }
         LaneTriangles t;
         laneSnap(&t, a, b, w, kx, ky);
-        laneBox(&t, light->resolution, p->conservative);
+        laneBox(&t, light->resolution, light->resolution, p->conservative);
         const VI shown = laneLive(&t, V_AS_INT(V_LOAD(flags, first))) & V_MASK(V_INDEX < (VI)(int)(count - first));
         int mask[LANES];
         V_STORE(shown, mask, 0);
