@@ -56,6 +56,13 @@ class DescribeRows {
     void flag(const char* name, bool& value, const char* meaning, bool device = true) {
         rows.push_back({name, "bool", value ? "true" : "false", "", "", "", meaning, {}, device});
     }
+    void oneOf(const char* name, int& value, const std::vector<int>& allowed, const char* unit,
+               const char* meaning, bool device = true) {
+        std::vector<std::string> choices;
+        for (const int number : allowed) choices.push_back(std::to_string(number));
+        rows.push_back({name, "enum", std::to_string(value), "", "", unit, meaning,
+                        std::move(choices), device});
+    }
     template <typename Enum>
     void choice(const char* name, Enum& value, std::vector<std::string> choices,
                 const char* meaning, bool device = true) {
@@ -85,6 +92,17 @@ class ApplyRows {
         requireUsage(*text == "true" || *text == "false", "{}.{} = {} is not true or false",
                      technique_, name, *text);
         value = *text == "true";
+    }
+    void oneOf(const char* name, int& value, const std::vector<int>& allowed, const char*,
+               const char*, bool = true) {
+        const auto* text = find(name);
+        if (!text) return;
+        const auto found = std::find_if(allowed.begin(), allowed.end(), [&](int number) {
+            return *text == std::to_string(number);
+        });
+        requireUsage(found != allowed.end(), "{}.{} = {} is not one of {}", technique_, name, *text,
+                     fmt::join(allowed, ", "));
+        value = *found;
     }
     template <typename Enum>
     void choice(const char* name, Enum& value, const std::vector<std::string>& choices, const char*,
@@ -146,6 +164,12 @@ Settings parseSettings(const std::string& technique, const SettingValues& values
     settings.rows(apply);
     apply.requireAllUsed();
     return settings;
+}
+
+/// Throws Error (usage) naming what is wrong with a technique's values.
+template <typename Settings>
+void checkSettings(const std::string& technique, const SettingValues& values) {
+    parseSettings<Settings>(technique, values);
 }
 
 /// The rows with the values in force as their `fallback`, for headers and reports.

@@ -36,19 +36,35 @@ bool isFile(const std::string& reference) {
     return reference.size() > 4 && reference.substr(reference.size() - 4) == ".exr";
 }
 
+/// Of a reference that is a technique.
+Contender referenceContender(const CompareOptions& options) {
+    auto contender = parseContender(options.reference, options.base);
+    const bool own = options.reference.find(":samples=") != std::string::npos;
+    if (!own) contender.options.lightSamples = options.referenceSamples;
+    checkContender(contender,
+                   own ? fmt::format("'{}': samples", options.reference) : "--reference-samples");
+    contender.label = "reference";
+    return contender;
+}
+
+SeenFrame referenceFrame(const CompareOptions& options, int number) {
+    auto frame = readFrame(options.reference, number);
+    require(frame.width == options.base.width && frame.height == options.base.height,
+            "the reference has {}x{} pixels, the frames {}x{}; use --size {}x{}", frame.width,
+            frame.height, options.base.width, options.base.height, frame.width, frame.height);
+    return frame;
+}
+
 ContenderResult runReference(const CompareOptions& options, Truth& truth, Comparison& comparison,
                              Progress progress) {
     ContenderResult result;
     if (isFile(options.reference)) {
         result.contender.label = options.reference;
         for (const int number : options.frames)
-            truth.frames[number] = readFrame(options.reference, number);
+            truth.frames[number] = referenceFrame(options, number);
         return result;
     }
-    auto contender = parseContender(options.reference, options.base);
-    if (contender.label.find("samples=") == std::string::npos)
-        contender.options.lightSamples = options.referenceSamples;
-    contender.label = "reference";
+    const auto contender = referenceContender(options);
     ContenderRun run(contender, options.frames, 1, options.frames.size() > 1);
     const SeenFrame* last = nullptr;
     for (const int number : options.frames) {
@@ -138,10 +154,6 @@ ContenderResult runContender(const Contender& contender, const Comparison& compa
         progress(fmt::format("{}: frame {}", contender.label, number));
         SeenFrame frame = run.render(number, folder);
         const auto& reference = truth.frames.at(number);
-        require(reference.width == frame.width && reference.height == frame.height,
-                "the reference has {}x{} pixels, the frames {}x{}; use --size {}x{}",
-                reference.width, reference.height, frame.width, frame.height, reference.width,
-                reference.height);
         FrameResult seen;
         seen.number = number;
         seen.ms = frame.ms;
@@ -209,6 +221,16 @@ bool canSweep(const std::string& technique, const std::string& key) {
            technique != "none";  // one map or no light
 }
 
+/// A technique of --techniques at a value of the sweep.
+Contender sweptContender(const CompareOptions& options, const std::string& text,
+                         const std::string& key, const std::string& value) {
+    const auto technique = parseContender(text, options.base).options.technique;
+    // The samples of mvss are its own
+    const std::string samples = technique == "mvss" ? "maps" : "samples";
+    return parseContender(
+        fmt::format("{}:{}={}", text, key == "light-samples" ? samples : key, value), options.base);
+}
+
 /// Checks a sweep before anything renders; names the contenders that it leaves out.
 void checkSweep(const CompareOptions& options, std::vector<std::string>& warnings) {
     const auto [key, values] = parseSweep(options.sweep);
@@ -216,11 +238,14 @@ void checkSweep(const CompareOptions& options, std::vector<std::string>& warning
     std::size_t swept = 0;
     for (const auto& text : options.techniques) {
         const auto technique = parseContender(text, options.base).options.technique;
-        if (canSweep(technique, key))
-            ++swept;
-        else
+        if (!canSweep(technique, key)) {
             warnings.push_back(
                 fmt::format("--sweep {}: {} has none of it and is left out", key, text));
+            continue;
+        }
+        ++swept;
+        for (const auto& value : values)
+            checkContender(sweptContender(options, text, key, value), "--sweep light-samples");
     }
     requireUsage(swept > 0,
                  "--sweep {}: no technique of --techniques has it; light-samples, or the name of a "
@@ -235,12 +260,8 @@ void runSweep(Comparison& comparison, const Truth& truth, Progress progress) {
         const double number = sweepNumber(value);
         for (const auto& text : options.techniques) {
             const auto technique = parseContender(text, options.base).options.technique;
-            const bool samples = key == "light-samples";
-            // The samples of mvss are its own
-            const auto own = technique == "mvss" ? "maps" : "samples";
             if (!canSweep(technique, key)) continue;
-            const auto contender = parseContender(
-                fmt::format("{}:{}={}", text, samples ? own : key, value), options.base);
+            const auto contender = sweptContender(options, text, key, value);
             auto result = runContender(contender, comparison, truth, nullptr, "", progress,
                                        comparison.warnings);
             result.contender.label = text;
@@ -271,7 +292,9 @@ Comparison compare(const CompareOptions& options, Progress progress) {
     std::set<std::string> labels{"reference"};
     for (const auto& text : options.techniques) {
         contenders.push_back(parseContender(text, options.base));
-        checkSettings(contenders.back());
+        checkContender(contenders.back(), text.find(":samples=") == std::string::npos
+                                              ? "--light-samples"
+                                              : fmt::format("'{}': samples", text));
         requireUsage(labels.insert(fileName(text)).second, "technique '{}' is listed twice", text);
     }
     Comparison comparison;
@@ -282,7 +305,7 @@ Comparison compare(const CompareOptions& options, Progress progress) {
             "--frames are {} frames and --reference {} is one file; put #### into the name",
             options.frames.size(), options.reference);
     else
-        checkSettings(parseContender(options.reference, options.base));
+        referenceContender(options);
     std::error_code error;
     std::filesystem::create_directories(options.folder, error);
     require(std::filesystem::is_directory(options.folder),

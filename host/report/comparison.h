@@ -22,8 +22,9 @@ struct Contender {
 /// `pattern`, `seed` of the render. Throws Error (usage).
 Contender parseContender(const std::string& text, const RenderOptions& base);
 
-/// Throws Error (usage) for settings that the technique does not have, before anything renders.
-void checkSettings(const Contender& contender);
+/// Throws Error (usage) for settings and values that the technique does not have, before anything
+/// renders. samplesOption: what the user calls the number of samples.
+void checkContender(const Contender& contender, const std::string& samplesOption);
 
 struct CompareOptions {
     RenderOptions base;

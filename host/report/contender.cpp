@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "host/report/comparison.h"
+#include "host/scene/light.h"
 #include "host/visibility/technique.h"
 #include "runtime/error.h"
 
@@ -44,9 +45,10 @@ Contender parseContender(const std::string& text, const RenderOptions& base) {
     return contender;
 }
 
-void checkSettings(const Contender& contender) {
+void checkContender(const Contender& contender, const std::string& samplesOption) {
     const auto& options = contender.options;
-    const auto rows = visibility::findTechnique(options.technique).describe();
+    const auto& technique = visibility::findTechnique(options.technique);
+    const auto rows = technique.describe();
     std::vector<std::string> names;
     names.reserve(rows.size());
     for (const auto& row : rows) names.push_back(row.name);
@@ -56,10 +58,14 @@ void checkSettings(const Contender& contender) {
                      "'{}': {} has no setting '{}'; allowed: {}, samples, pattern, seed, temporal",
                      contender.label, options.technique, name, fmt::join(names, ", "));
     }
+    technique.check(options.technique, options.settings);
     requireUsage(options.lightPattern != "random" || options.technique == "raytrace",
                  "'{}': pattern random is for raytrace alone; allowed: hammersley, poisson, grid, "
                  "jittered",
                  contender.label);
+    scene::SampleChoice choice;
+    choice.pattern = scene::parsePattern(options.lightPattern);
+    scene::parseSampleCount(options.lightSamples, choice, samplesOption);
 }
 
 }  // namespace penumbra::report

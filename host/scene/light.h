@@ -25,7 +25,8 @@ struct SampleChoice {
 };
 
 /// "64" or "8x8". Throws Error (usage). At most 4096 samples.
-SampleChoice parseSampleCount(const std::string& text, SampleChoice base);
+SampleChoice parseSampleCount(const std::string& text, SampleChoice base,
+                              const std::string& option = "--light-samples");
 Pattern parsePattern(const std::string& text);
 
 /// Offsets in [-1, 1]^2 (disk: in the unit disk), to be scaled by half the light's size.

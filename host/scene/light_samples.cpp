@@ -54,36 +54,36 @@ std::vector<glm::dvec2> cells(const SampleChoice& choice, bool disk) {
     return points;
 }
 
-int parseInt(const std::string& text, const std::string& whole) {
+int parseInt(const std::string& text, const std::string& whole, const std::string& option) {
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    requireUsage(
-        error == std::errc() && end == text.data() + text.size() && value > 0,
-        "--light-samples '{}' is not a number of samples; allowed: N or MxN, 1 to {} in all", whole,
-        kMaxSamples);
+    requireUsage(error == std::errc() && end == text.data() + text.size() && value > 0,
+                 "{} '{}' is not a number of samples; allowed: N or MxN, 1 to {} in all", option,
+                 whole, kMaxSamples);
     return value;
 }
 
 }  // namespace
 
-SampleChoice parseSampleCount(const std::string& text, SampleChoice choice) {
+SampleChoice parseSampleCount(const std::string& text, SampleChoice choice,
+                              const std::string& option) {
     const auto cross = text.find('x');
     if (cross == std::string::npos) {
-        choice.count = parseInt(text, text);
+        choice.count = parseInt(text, text, option);
         choice.columns = choice.rows = 0;
     } else {
-        choice.columns = parseInt(text.substr(0, cross), text);
-        choice.rows = parseInt(text.substr(cross + 1), text);
+        choice.columns = parseInt(text.substr(0, cross), text, option);
+        choice.rows = parseInt(text.substr(cross + 1), text, option);
         requireUsage(choice.columns <= kMaxSamples && choice.rows <= kMaxSamples,
-                     "--light-samples {} has more than {} samples", text, kMaxSamples);
+                     "{} {} has more than {} samples", option, text, kMaxSamples);
         choice.count = choice.columns * choice.rows;
         requireUsage(choice.pattern != Pattern::poisson && choice.pattern != Pattern::random,
-                     "--light-samples {} is a grid, and --light-pattern poisson and random are "
+                     "{} {} is a grid, and --light-pattern poisson and random are "
                      "none; allowed: grid, jittered",
-                     text);
+                     option, text);
         if (choice.pattern != Pattern::jittered) choice.pattern = Pattern::grid;
     }
-    requireUsage(choice.count <= kMaxSamples, "--light-samples {} is outside of 1 to {}", text,
+    requireUsage(choice.count <= kMaxSamples, "{} {} is outside of 1 to {}", option, text,
                  kMaxSamples);
     return choice;
 }

@@ -105,10 +105,8 @@ LightGrid fitLightGrid(const scene::AreaLight& light) {
         if (keepsApart(light, size, false)) return gridOf(light, size, false);
     throw Error(fmt::format("raster4d: no grid of at most {} x {} cells keeps the {} samples of "
                             "light '{}' apart; allowed: --light-samples MxN of at most {}x{}, or "
-                            "fewer samples; the nearest is {}x{}",
-                            R4_ROWS, R4_ROWS, count, light.name, R4_ROWS, R4_ROWS,
-                            std::min(R4_ROWS, static_cast<int>(std::ceil(std::sqrt(count)))),
-                            std::min(R4_ROWS, static_cast<int>(std::ceil(std::sqrt(count))))),
+                            "fewer samples",
+                            R4_ROWS, R4_ROWS, count, light.name, R4_ROWS, R4_ROWS),
                 ExitCode::usage);
 }
 

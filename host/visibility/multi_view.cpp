@@ -27,8 +27,6 @@ MultiView::MultiView(const runtime::Program& multiView, const MapSettings& setti
       pack_(multiView, "map_pack"),
       average_(multiView, "map_average"),
       upsample_(multiView, "map_upsample") {
-    requireUsage(settings.depthBits == 16 || settings.depthBits == 32,
-                 "depthBits = {} is neither 16 nor 32", settings.depthBits);
     const int step = settings.halfResolution ? 2 : 1;
     image_.width = width;
     image_.height = height;

@@ -29,7 +29,7 @@ struct MapSettings {
     template <typename Row>
     void rows(Row& row) {
         pixelRows(row);
-        row.number("depthBits", depthBits, 16, 32, "bits", "of a depth map's texel: 16 or 32");
+        row.oneOf("depthBits", depthBits, {16, 32}, "bits", "of a depth map's texel");
         row.number("viewsPerBatch", viewsPerBatch, 0, 4096, "views",
                    "maps held at a time; 0: by device and memory; never changes the image", false);
         row.flag("skipLit", skipLit,

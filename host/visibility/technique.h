@@ -106,6 +106,8 @@ struct TechniqueEntry {
     const char* source;    ///< key of the paper and section
     const char* failures;  ///< known failures, for `penumbra techniques`
     std::vector<SettingRow> (*describe)();
+    /// Throws Error (usage) naming what is wrong with the values.
+    void (*check)(const std::string& technique, const SettingValues& values);
     /// What it will hold at the least: batches of maps shrink to what is left, lists grow.
     std::uint64_t (*plannedBytes)(const TechniqueContext&);
     std::unique_ptr<Technique> (*make)(const TechniqueContext&);

@@ -31,28 +31,32 @@ const std::vector<TechniqueEntry>& techniques() {
          "bands of self-shadowing, slight bloat of shadows, leaks at grazing angles; few large "
          "triangles make "
          "many points; partial opacity blocks a share of the samples",
-         describeSettings<VwssSettings>, Vwss::plannedBytes, make<Vwss>},
+         describeSettings<VwssSettings>, checkSettings<VwssSettings>, Vwss::plannedBytes,
+         make<Vwss>},
         {"mvr", "multi-view rasterisation: every triangle into a depth map per sample",
          "[VWSS] 2.1, 4",
          "cost grows with triangles times samples; aliasing of the maps' texels; partial opacity "
          "blocks a share of the samples",
-         describeSettings<MvrSettings>, Mvr::plannedBytes, make<Mvr>},
+         describeSettings<MvrSettings>, checkSettings<MvrSettings>, Mvr::plannedBytes, make<Mvr>},
         {"mvss",
          "as NVIDIA's sample: a few small maps at Poisson-disk samples, one bilinear tap each",
          "[MVSS]",
          "bands of 28 edges in wide penumbrae; acne or detached shadows where the fixed bias does "
          "not suit the scene",
-         describeSettings<MvssSettings>, Mvss::plannedBytes, make<Mvss>},
+         describeSettings<MvssSettings>, checkSettings<MvssSettings>, Mvss::plannedBytes,
+         make<Mvss>},
         {"pcss", "percentage-closer soft shadows: one map, blocker search, filter", "[VWSS] 4",
          "occluder fusion (blockers of several depths), thin parts, light leaking where the centre "
          "of the light sees no blocker",
-         describeSettings<PcssSettings>, Pcss::plannedBytes, make<Pcss>},
+         describeSettings<PcssSettings>, checkSettings<PcssSettings>, Pcss::plannedBytes,
+         make<Pcss>},
         {"essm", "exponential soft shadow maps: one map of exponentials, filtered beforehand",
          "[MLSM] 2, 8",
          "occluder fusion, thin parts, light leaking behind near blockers, missing contact "
          "shadows, a "
          "grid of the pyramid's texels in wide penumbrae",
-         describeSettings<EssmSettings>, Essm::plannedBytes, make<Essm>},
+         describeSettings<EssmSettings>, checkSettings<EssmSettings>, Essm::plannedBytes,
+         make<Essm>},
         {"mlsm",
          "filtered multi-layer shadow maps: all fragments before the light's centre, filtered "
          "beforehand, with opacity and colour",
@@ -60,7 +64,8 @@ const std::vector<TechniqueEntry>& techniques() {
          "what only other points of the light see casts no shadow; penumbrae that overlap add up "
          "(accumulateLookup=multiply where occluders lie behind one another); thin parts between "
          "texels",
-         describeSettings<MlsmSettings>, Mlsm::plannedBytes, make<Mlsm>},
+         describeSettings<MlsmSettings>, checkSettings<MlsmSettings>, Mlsm::plannedBytes,
+         make<Mlsm>},
         {"raster4d",
          "exact: triangles and receivers meet in the light's grid and give a bit per light sample, "
          "a "
@@ -68,13 +73,15 @@ const std::vector<TechniqueEntry>& techniques() {
          "[4DR]",
          "none but the light samples' number, at most 64 x 64; cost grows with the light's size; "
          "partial opacity blocks a share of the samples",
-         describeSettings<Raster4dSettings>, Raster4d::plannedBytes, make<Raster4d>},
+         describeSettings<Raster4dSettings>, checkSettings<Raster4dSettings>,
+         Raster4d::plannedBytes, make<Raster4d>},
         {"raytrace",
          "the reference: one ray per light sample and pixel, opacity and colour along it", "",
          "none but the light samples' number", describeSettings<RaytraceSettings>,
-         Raytrace::plannedBytes, make<Raytrace>},
+         checkSettings<RaytraceSettings>, Raytrace::plannedBytes, make<Raytrace>},
         {"none", "no shadows", "", "lights through everything", describeSettings<NoSettings>,
-         [](const TechniqueContext&) -> std::uint64_t { return 0; }, make<None>},
+         checkSettings<NoSettings>, [](const TechniqueContext&) -> std::uint64_t { return 0; },
+         make<None>},
     };
     return list;
 }
