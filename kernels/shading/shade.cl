@@ -97,8 +97,12 @@ kernel void shade_light(const ShadeParams params, const ShadeLight light,
                         global float* restrict colour) {
     const int pixel = (int)get_global_id(0) * LANES, stride = params.planeStride;
     if (pixel >= stride) return;
-    const VI covered = V_AS_INT(V_LOAD(planes, GB_OBJECT * stride + pixel)) != 0;
-    if (!V_ANY(V_MASK(covered))) return;
+    const int channelStride = params.channels == 3 ? stride : 0;
+    const VF seen[3] = {V_LOAD(visibility, pixel), V_LOAD(visibility, channelStride + pixel),
+                        V_LOAD(visibility, 2 * channelStride + pixel)};
+    VI lit = V_MASK(V_AS_INT(V_LOAD(planes, GB_OBJECT * stride + pixel)) != 0) &
+             V_MASK(max(seen[0], max(seen[1], seen[2])) > 0.0f);
+    if (!V_ANY(lit)) return;
     const V3 world = loadV3(planes, stride, GB_POSITION, pixel);
     const V3 albedo = loadV3(planes, stride, GB_ALBEDO, pixel);
     const VF metallic = V_LOAD(planes, GB_METALLIC * stride + pixel);
@@ -107,12 +111,13 @@ kernel void shade_light(const ShadeParams params, const ShadeLight light,
     s.normal = affineVector(&light.lightFromWorld, loadV3(planes, stride, GB_NORMAL, pixel));
     s.roughness = max(V_LOAD(planes, GB_ROUGHNESS * stride + pixel), (VF)SHADE_MIN_ROUGHNESS);
 
-    VF irradiance;
     // What faces away from the whole light is dark, however its normals are smoothed
     const V3 geometric = affineVector(&light.lightFromWorld, loadV3(planes, stride, GB_GEOMETRIC, pixel));
     const VF facing = fabs(geometric.x) * light.halfWidth + fabs(geometric.y) * light.halfHeight -
                       v3Dot(geometric, s.position);
-    const VI faces = V_MASK(facing > 0.0f);
+    lit &= V_MASK(facing > 0.0f);
+    if (!V_ANY(lit)) return;
+    VF irradiance;
     if (light.corners > 0) {
         irradiance = polygonIrradiance(&light, s.position, s.normal);
     } else {
@@ -129,17 +134,16 @@ kernel void shade_light(const ShadeParams params, const ShadeLight light,
 
     const VF cone = coneFalloff(&light, s.position);
     const VF diffuse = irradiance * 0.31830989f * (1.0f - metallic) * cone;
-    const VF lit = V_SELECT((VF)0.0f, (VF)1.0f, V_MASK(covered) & faces);
+    const VF strength = V_SELECT((VF)0.0f, (VF)1.0f, lit);
     // Unlit surfaces reflect nothing; black ones do
     const VI unlit = V_AS_INT(V_LOAD(planes, GB_FLAGS * stride + pixel)) & (VI)DRAW_UNLIT;
     const VF white = V_SELECT(cone, (VF)0.0f, V_MASK(unlit != 0));
     const VF albedos[3] = {albedo.x, albedo.y, albedo.z};
     const float radiances[3] = {light.radiance.x, light.radiance.y, light.radiance.z};
     for (int channel = 0; channel < 3; ++channel) {
-        const VF seen = V_LOAD(visibility, (params.channels == 3 ? channel * stride : 0) + pixel);
         const VF f0 = fma(albedos[channel] - 0.04f, metallic, (VF)0.04f);
         const VF reflected = fma(albedos[channel], diffuse, fma(f0, f0Part, f90Part) * white);
         const VF old = V_LOAD(colour, channel * stride + pixel);
-        V_STORE(fma(reflected * radiances[channel] * lit, seen, old), colour, channel * stride + pixel);
+        V_STORE(fma(reflected * radiances[channel] * strength, seen[channel], old), colour, channel * stride + pixel);
     }
 }
