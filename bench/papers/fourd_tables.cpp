@@ -87,17 +87,6 @@ constexpr std::array<PaperScene, 6> kScenes = {{
 
 constexpr double kTurn = 2 * 3.14159265358979323846;
 
-runtime::Device& openDevice(const Request& request) {
-    static const auto device = [&] {
-        const auto devices = runtime::listDevices();
-        runtime::DeviceOptions options;
-        options.profiling = true;
-        return std::make_unique<runtime::Device>(
-            devices[runtime::chooseDevice(devices, request.device).index], options);
-    }();
-    return *device;
-}
-
 double total(const std::map<std::string, double>& stages) {
     double sum = 0;
     for (const auto& [name, ms] : stages) sum += ms;
@@ -147,6 +136,12 @@ MaskView viewOf(int index, const Request& request, int size) {
 }
 
 }  // namespace
+
+std::vector<std::string> fourdScenes() {
+    std::vector<std::string> names;
+    for (const auto& scene : kScenes) names.emplace_back(scene.name);
+    return names;
+}
 
 json fourdTable1(const Request& request) {
     auto& device = openDevice(request);

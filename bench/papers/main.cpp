@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // penumbra_papers TABLE [--json FILE] [--report FOLDER] [--frames N] [--size WxH] [--device NAME]
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 
@@ -35,7 +36,10 @@ int run(int argc, char** argv) {
     for (const auto& t : papers::tables()) {
         if (table != t.name) continue;
         const auto rows = t.run(request);
-        if (jsonFile.empty()) return 0;
+        const bool missed = std::any_of(rows.begin(), rows.end(), [](const auto& row) {
+            return row.is_object() && row.value("verdict", "") == "missed";
+        });
+        if (jsonFile.empty()) return missed ? 1 : 0;
         std::ofstream file(jsonFile);
         file << nlohmann::json({{"table", table},
                                 {"version", version()},
@@ -44,7 +48,7 @@ int run(int argc, char** argv) {
                     .dump(2)
              << '\n';
         require(static_cast<bool>(file.flush()), "--json {}: cannot be written", jsonFile);
-        return 0;
+        return missed ? 1 : 0;
     }
     throw Error(fmt::format("table '{}' is unknown; allowed:{}", table, names), ExitCode::usage);
 }

@@ -30,6 +30,8 @@ class MaskScene {
                                       int repeats, visibility::OcclusionMasks* masks = nullptr);
 
     const scene::AreaLight& light() const { return light_; }
+    const scene::Bounds& bounds() const { return bounds_; }
+    const geometry::Mesh& mesh() const { return geometry_.mesh(); }
     double radius() const { return bounds_.radius(); }
     std::uint32_t triangles() const { return geometry_.mesh().casterTriangleCount; }
     /// Corners of casters, three a triangle; re-based world, as the device posed them.

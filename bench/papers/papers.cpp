@@ -12,6 +12,8 @@ namespace penumbra::papers {
 
 const std::vector<Table>& tables() {
     static const std::vector<Table> list = {
+        {"goals", "what must hold: figure, floor and goal; exit code 1 where a floor is missed",
+         goals},
         {"vwss-table1", "[VWSS] table 1: cost and error with 24 depth maps, four scenes",
          vwssTable1},
         {"vwss-table2", "[VWSS] table 2: the same with 128 depth maps", vwssTable2},
@@ -82,6 +84,17 @@ std::string sceneFile(const std::string& name) {
                 PENUMBRA_MAKE_SCENE);
     }
     return path.string();
+}
+
+runtime::Device& openDevice(const Request& request) {
+    static const auto device = [&] {
+        const auto devices = runtime::listDevices();
+        runtime::DeviceOptions options;
+        options.profiling = true;
+        return std::make_unique<runtime::Device>(
+            devices[runtime::chooseDevice(devices, request.device).index], options);
+    }();
+    return *device;
 }
 
 RenderOptions baseOptions(const Request& request, int samples) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/report/comparison.h"
+#include "runtime/device.h"
 
 namespace penumbra::papers {
 
@@ -44,6 +45,10 @@ double deviation(const report::ContenderResult& result);
 /// One line of cells, each padded to its column.
 void printRow(const std::vector<std::string>& cells, const std::vector<int>& widths);
 
+/// The device of the request, opened once.
+runtime::Device& openDevice(const Request& request);
+
+nlohmann::json goals(const Request& request);
 nlohmann::json vwssTable1(const Request& request);
 nlohmann::json vwssTable2(const Request& request);
 nlohmann::json vwssFigure8(const Request& request);
@@ -52,6 +57,7 @@ nlohmann::json vwssFigure10(const Request& request);
 nlohmann::json vwssFigure13(const Request& request);
 nlohmann::json mvssTable1(const Request& request);
 #ifdef PENUMBRA_EMBREE
+std::vector<std::string> fourdScenes();
 nlohmann::json fourdTable1(const Request& request);
 nlohmann::json fourdTable2(const Request& request);
 nlohmann::json fourdTable3(const Request& request);
