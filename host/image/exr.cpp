@@ -110,23 +110,20 @@ LoadedImage readExrFile(const std::string& path) try {
     const auto& header = file.header();
     const auto window = header.dataWindow();
     LoadedImage image;
+    // OpenEXR has checked that these differences fit
     image.width = window.max.x - window.min.x + 1;
     image.height = window.max.y - window.min.y + 1;
-    require(image.width > 0 && image.height > 0 && image.width <= 32768 && image.height <= 32768,
-            "{} x {} pixels are outside of 1x1 to 32768x32768", image.width, image.height);
+    std::size_t channelCount = 0;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channelCount;
+    requireReadable(image.width, image.height, channelCount);
+    require(file.isComplete(), "its end is missing");
     const auto pixels =
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
         image.channels.push_back({c.name(), std::vector<float>(pixels), {}});
     Imf::FrameBuffer buffer;
-    for (auto& channel : image.channels) {
-        char* base = reinterpret_cast<char*>(channel.values.data()) -
-                     sizeof(float) * (static_cast<std::ptrdiff_t>(window.min.x) +
-                                      static_cast<std::ptrdiff_t>(window.min.y) * image.width);
-        buffer.insert(channel.name,
-                      Imf::Slice(Imf::FLOAT, base, sizeof(float),
-                                 sizeof(float) * static_cast<std::size_t>(image.width)));
-    }
+    for (auto& channel : image.channels)
+        buffer.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, channel.values.data(), window));
     file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);
     for (auto a = header.begin(); a != header.end(); ++a)
@@ -134,7 +131,7 @@ LoadedImage readExrFile(const std::string& path) try {
             image.header.emplace_back(a.name(), text->value());
     return image;
 } catch (const std::exception& error) {
-    throw Error(fmt::format("{}: not a readable EXR file: {}", path, error.what()));
+    throw Error(fmt::format("{}: not a readable EXR file: {}", path, toOneLine(error.what())));
 }
 
 }  // namespace penumbra::image
