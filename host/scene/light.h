@@ -27,6 +27,8 @@ struct SampleChoice {
 /// "64" or "8x8". Throws Error (usage). At most 4096 samples.
 SampleChoice parseSampleCount(const std::string& text, SampleChoice base);
 Pattern parsePattern(const std::string& text);
+/// A number below 2^32, or "frame" for the frame's own. Throws Error (usage).
+std::uint32_t parseSeed(const std::string& text, int frame);
 
 /// Offsets in [-1, 1]^2 (disk: in the unit disk), to be scaled by half the light's size.
 /// hammersley lies concentrically on disks, poisson is Bridson's in the shape itself; one sample
