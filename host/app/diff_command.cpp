@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -45,15 +46,13 @@ std::vector<bool> readMask(const std::string& path) {
 }
 
 bool exceedsShare(const std::string& limit, const metrics::ImageError& error) {
-    const auto equals = limit.find('=');
-    const std::string step = limit.substr(0, equals);
+    const std::string step = limit.substr(0, limit.find('='));
+    requireUsage(step.size() < limit.size(), "--fail-share {} is not STEP=SHARE", limit);
     const int index = step == "1" ? 0 : step == "4" ? 1 : step == "16" ? 2 : -1;
     double most = -1;
-    try {
-        if (equals != std::string::npos) most = std::stod(limit.substr(equals + 1));
-    } catch (const std::exception&) {
-    }
-    requireUsage(index >= 0 && most >= 0,
+    const char* const end = limit.data() + limit.size();
+    const auto parsed = std::from_chars(limit.data() + step.size() + 1, end, most);
+    requireUsage(index >= 0 && parsed.ec == std::errc() && parsed.ptr == end && most >= 0,
                  "--fail-share {} is not STEP=SHARE; allowed steps: 1, 4, 16 (of 255)", limit);
     return error.share[static_cast<std::size_t>(index)] > most;
 }
