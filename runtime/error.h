@@ -46,8 +46,4 @@ void requireUsage(bool condition, fmt::format_string<Args...> message, Args&&...
     if (!condition) throw Error(fmt::format(message, std::forward<Args>(args)...), ExitCode::usage);
 }
 
-/// Control characters become spaces and long texts (data URIs) are cut, so that what a file or a
-/// library says fits into a message of one line.
-std::string toOneLine(const std::string& text);
-
 }  // namespace penumbra

@@ -12,6 +12,7 @@
 
 #include "host/image/image_file.h"
 #include "runtime/error.h"
+#include "runtime/one_line.h"
 
 namespace penumbra::image {
 namespace {

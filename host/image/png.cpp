@@ -11,6 +11,7 @@
 #include "host/image/image_file.h"
 #include "host/image/tone_map.h"
 #include "runtime/error.h"
+#include "runtime/one_line.h"
 
 namespace penumbra::image {
 namespace {

@@ -16,6 +16,7 @@
 
 #include "host/scene/scene.h"
 #include "runtime/error.h"
+#include "runtime/one_line.h"
 
 namespace penumbra::scene {
 

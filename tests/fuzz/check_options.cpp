@@ -50,7 +50,7 @@ void checkLights(const RenderOptions& options) {
 }  // namespace
 
 void checkOptions(const RenderOptions& options) {
-    checkSettings(options);
+    if (!options.settings.empty()) checkSettings(options);
     checkLights(options);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/error.h"
+#include "runtime/one_line.h"
 
 #include <algorithm>
 
