@@ -107,6 +107,7 @@ void writeExrFile(const std::string& path, const Frame& frame) {
 }
 
 LoadedImage readExrFile(const std::string& path) try {
+    Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);  // before it allocates lines of any width
     Imf::InputFile file(path.c_str());
     const auto& header = file.header();
     const auto window = header.dataWindow();
