@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "host/image/image_file.h"
 #include "runtime/error.h"
@@ -98,6 +99,24 @@ void writeMasks(const std::string& path, const void* context) {
     writeFile(path, header, planes, frame.maskHeight);
 }
 
+/// OpenEXR takes as much memory as an attribute says that it has bytes, 2 GiB at most, before it
+/// reads them. Looks at the first header alone: that of the part that is read.
+void checkAttributes(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::uint64_t fileBytes = std::filesystem::file_size(path);
+    std::string name, type;
+    file.ignore(8);  // magic number and version
+    while (std::getline(file, name, '\0') && !name.empty() && std::getline(file, type, '\0')) {
+        unsigned char size[4] = {};
+        if (!file.read(reinterpret_cast<char*>(size), sizeof size)) return;
+        const std::uint64_t bytes =
+            size[0] | size[1] << 8U | size[2] << 16U | static_cast<std::uint64_t>(size[3]) << 24U;
+        require(bytes <= fileBytes, "attribute '{}' has {} bytes in a file of {}", name, bytes,
+                fileBytes);
+        file.ignore(static_cast<std::streamsize>(bytes));
+    }
+}
+
 }  // namespace
 
 void writeExrFile(const std::string& path, const Frame& frame) {
@@ -107,6 +126,7 @@ void writeExrFile(const std::string& path, const Frame& frame) {
 }
 
 LoadedImage readExrFile(const std::string& path) try {
+    checkAttributes(path);
     Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);  // before it allocates lines of any width
     Imf::InputFile file(path.c_str());
     const auto& header = file.header();

@@ -49,6 +49,9 @@ void makeFiles(const std::string& folder) {
     const std::string exr = readFile(folder + "/a.exr");
     write(folder + "/cut.exr", exr.substr(0, exr.size() - 5));
     write(folder + "/bomb.exr", withSize(exr, 40000, 2));
+    std::string greedy = exr;
+    greedy.replace(greedy.find("chlist") + 7, 4, "\xFF\xFF\xFF\x7F");
+    write(folder + "/greedy.exr", greedy);
     write(folder + "/text.exr", "hello");
     write(folder + "/empty.png", "");
     write(folder + "/cut.png", pngBytes(2, 2).substr(0, 50));
@@ -161,6 +164,9 @@ const BadCommand kBadCommands[] = {
     {"DiffOfAnExrBomb", "diff DIR/bomb.exr DIR/a.exr", 1,
      R"(DIR/bomb.exr: not a readable EXR file: Cannot read image file "DIR/bomb.exr". )"
      "The width of the data window exceeds the maximum width of 16384pixels."},
+    {"DiffOfAnExrWithAGreedyAttribute", "diff DIR/greedy.exr DIR/a.exr", 1,
+     "DIR/greedy.exr: not a readable EXR file: attribute 'channels' has 2147483647 bytes in a file "
+     "of 390"},
     {"DiffOfText", "diff DIR/text.exr DIR/a.exr", 1,
      R"(DIR/text.exr: not a readable EXR file: Cannot read image file "DIR/text.exr". )"
      "Early end of file: read 1 out of 4 requested bytes."},
