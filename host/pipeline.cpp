@@ -21,6 +21,9 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kAmbient = 0.05, kWhite = 0.8;
 constexpr int kMaxRetries = 6;
+constexpr double kMaxCoordinate = 1e12;  // of the camera, metres
+constexpr int kMaxFrames = 1 << 30;      // of a clip; --frames takes fewer
+constexpr std::uint64_t kMaxMegabytes = 1 << 30;
 
 std::unique_ptr<runtime::Device> openDevice(const RenderOptions& options) {
     const auto devices = runtime::listDevices();
@@ -34,6 +37,9 @@ std::unique_ptr<runtime::Device> openDevice(const RenderOptions& options) {
 
 glm::dvec3 vectorOf(const std::vector<double>& v, const char* option) {
     requireUsage(v.size() == 3, "{} needs three numbers x,y,z, got {}", option, v.size());
+    for (const double number : v)
+        requireUsage(std::abs(number) <= kMaxCoordinate, "{} {},{},{} is outside of -{} to {} m",
+                     option, v[0], v[1], v[2], kMaxCoordinate, kMaxCoordinate);
     return {v[0], v[1], v[2]};
 }
 
@@ -50,16 +56,7 @@ scene::SampleChoice sampleChoice(const RenderOptions& options, int frame) {
     scene::SampleChoice choice;
     choice.pattern = scene::parsePattern(options.lightPattern);
     choice = scene::parseSampleCount(options.lightSamples, choice);
-    if (options.seed == "frame") {
-        choice.seed = static_cast<std::uint32_t>(frame);
-        return choice;
-    }
-    try {
-        choice.seed = static_cast<std::uint32_t>(std::stoul(options.seed));
-    } catch (const std::exception&) {
-        throw Error(fmt::format("--seed '{}' is neither a number nor 'frame'", options.seed),
-                    ExitCode::usage);
-    }
+    choice.seed = scene::parseSeed(options.seed, frame);
     return choice;
 }
 
@@ -135,7 +132,10 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
     : options_(options), aovs_(parseAovs(options.aovs)), scene_(std::move(scene)) {
     requireUsage(options.supersample >= 1 && options.supersample <= 8,
                  "--supersample {} is outside of 1 to 8", options.supersample);
-    requireUsage(options.fps > 0, "--fps {} must be greater than 0", options.fps);
+    requireUsage(options.fps > 0 && std::isfinite(options.fps),
+                 "--fps {} is not a number greater than 0", options.fps);
+    requireUsage(options.memoryMegabytes <= kMaxMegabytes, "--memory {} is outside of 0 to {} MB",
+                 options.memoryMegabytes, kMaxMegabytes);
     requireUsage(options.temporal >= 0 && options.temporal <= 64,
                  "--temporal {} is outside of 0 to 64", options.temporal);
     requireUsage(options.width > 0 && options.height > 0 && options.width <= RASTER_MAX_SIZE &&
@@ -152,10 +152,17 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
     height_ = options.height * options.supersample;
     clips_ = scene::chooseAnimations(scene_, options.animation);
     bounds_ = scene::clipBounds(scene_, clips_);
+    const std::size_t drawn = drawnTriangles(scene_);
     if (options.ground) scene::addGround(scene_, bounds_);
     require(drawnTriangles(scene_) > 0, "{}: no triangles to draw; add --ground for an empty floor",
             options.scene.empty() ? "built-in scene" : options.scene);
     for (const auto& warning : scene_.warnings) warnOnce(warning);
+    if (drawn > 0 && bounds_.empty) warnOnce("no vertex of the scene is finite: it has no bounds");
+    if (drawn > 0 && !bounds_.empty && bounds_.radius() == 0)
+        warnOnce(
+            fmt::format("all vertices of the scene lie at one point, {},{},{}: nothing of it "
+                        "can be seen",
+                        bounds_.low.x, bounds_.low.y, bounds_.low.z));
 
     const auto pose = scene::poseAt(scene_, clips_, 0);
     glm::dvec3 irradiance(0);
@@ -204,9 +211,9 @@ double Pipeline::secondsOf(int number) const {
 }
 
 int Pipeline::frameCount() const {
-    return static_cast<int>(
-               std::floor(scene::clipDurationSeconds(scene_, clips_) * options_.fps + 1e-6)) +
-           1;
+    const double last =
+        std::floor(scene::clipDurationSeconds(scene_, clips_) * options_.fps + 1e-6);
+    return static_cast<int>(std::min<double>(last, kMaxFrames)) + 1;
 }
 
 void Pipeline::enqueue(const geometry::Mesh& mesh, bool keep) {

@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
+#include <charconv>
 
 #include "host/app/commands.h"
+#include "host/app/config_file.h"
 #include "runtime/error.h"
 
 namespace penumbra::app {
@@ -26,13 +26,13 @@ struct Arguments {
 };
 
 void parseSize(const std::string& text, RenderOptions& options) {
-    int width = 0, height = 0, used = 0;
-    const bool whole = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) == 2 &&
-                       static_cast<std::size_t>(used) == text.size();
-    requireUsage(whole && width > 0 && height > 0, "--size '{}' is not WIDTHxHEIGHT in pixels",
-                 text);
-    options.width = width;
-    options.height = height;
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, options.width);
+    const bool crossed = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+    const auto height = std::from_chars(crossed ? width.ptr + 1 : end, end, options.height);
+    requireUsage(crossed && height.ec == std::errc() && height.ptr == end && options.width > 0 &&
+                     options.height > 0,
+                 "--size '{}' is not WIDTHxHEIGHT in pixels", text);
 }
 
 void parseSettings(const std::vector<std::string>& texts, RenderOptions& options) {
@@ -136,7 +136,8 @@ void addPicture(CLI::App& command, Arguments& a) {
         "name, index, all, or none; default (all): clip 0 and what moves other nodes");
     command.add_option("--device", a.device,
                        "cpu, gpu, an index, platform:device, or part of a name");
-    command.add_option("--memory", o.memoryMegabytes, "limit on device memory, MB");
+    command.add_option("--memory", o.memoryMegabytes, "limit on device memory, MB")
+        ->check(CLI::Range(0, 1 << 30));
     command.add_flag("--no-cache", a.noCache, "compile kernels anew");
 }
 
@@ -203,56 +204,6 @@ CLI::App* addDiff(CLI::App& app, Arguments& a) {
                 "STEP=SHARE: largest share of pixels beyond STEP/255; steps 1, 4, 16");
     diff.add_flag("--json", a.diff.json, "JSON on stdout");
     return &diff;
-}
-
-bool isGiven(const CLI::Option& option, const std::vector<std::string>& arguments) {
-    for (const auto& name : option.get_lnames())
-        for (const auto& argument : arguments)
-            if (argument == "--" + name || argument.rfind("--" + name + "=", 0) == 0) return true;
-    for (const auto& name : option.get_snames())
-        for (const auto& argument : arguments)
-            if (argument.rfind("-" + name, 0) == 0 && argument.rfind("--", 0) != 0) return true;
-    return false;
-}
-
-std::string configPath(const std::vector<std::string>& arguments) {
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-        if (arguments[i] == "--config" && i + 1 < arguments.size()) return arguments[i + 1];
-        if (arguments[i].rfind("--config=", 0) == 0) return arguments[i].substr(9);
-    }
-    return "";
-}
-
-/// Arguments with those of the --config file added that the command line does not give. CLI11's own
-/// configuration works for the whole program, not for one of its commands.
-std::vector<std::string> withConfig(const std::vector<std::string>& arguments,
-                                    const CLI::App& render) {
-    const std::string path = configPath(arguments);
-    if (path.empty()) return arguments;
-    std::ifstream file(path);
-    require(std::filesystem::is_regular_file(path) && file, "--config {}: cannot be read", path);
-    auto all = std::vector<std::string>{arguments[0]};
-    for (const auto& item : CLI::ConfigTOML().from_config(file)) {
-        const auto* option = render.get_option_no_throw("--" + item.name);
-        requireUsage(option != nullptr && item.parents.empty() && item.name != "config",
-                     "--config {}: '{}' is not an option of render; see penumbra render --help",
-                     path, item.fullname());
-        // Settings of the file and of the command line add up, key by key; the later one wins
-        if (isGiven(*option, arguments) && item.name != "set") continue;
-        if (option->get_expected_min() == 0) {
-            requireUsage(item.inputs == std::vector<std::string>{"true"} ||
-                             item.inputs == std::vector<std::string>{"false"},
-                         "--config {}: {} is not true or false", path, item.name);
-            if (item.inputs[0] == "true") all.push_back("--" + item.name);
-            continue;
-        }
-        if (option->get_delimiter() != '\0')
-            all.push_back(fmt::format("--{}={}", item.name, fmt::join(item.inputs, ",")));
-        else
-            for (const auto& input : item.inputs) all.push_back("--" + item.name + "=" + input);
-    }
-    all.insert(all.end(), arguments.begin() + 1, arguments.end());
-    return all;
 }
 
 void fillOptions(Arguments& a, bool hasFov) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -44,18 +46,22 @@ std::vector<bool> readMask(const std::string& path) {
     return mask;
 }
 
-bool exceedsShare(const std::string& limit, const metrics::ImageError& error) {
-    const auto equals = limit.find('=');
-    const std::string step = limit.substr(0, equals);
+/// A limit on the share of pixels beyond a step of ImageError::share.
+struct ShareLimit {
+    std::size_t step;
+    double most;
+};
+
+ShareLimit parseShare(const std::string& limit) {
+    const std::string step = limit.substr(0, limit.find('='));
     const int index = step == "1" ? 0 : step == "4" ? 1 : step == "16" ? 2 : -1;
     double most = -1;
-    try {
-        if (equals != std::string::npos) most = std::stod(limit.substr(equals + 1));
-    } catch (const std::exception&) {
-    }
-    requireUsage(index >= 0 && most >= 0,
+    const char* const end = limit.data() + limit.size();
+    const char* const begin = std::min(limit.data() + step.size() + 1, end);
+    const auto [stop, error] = std::from_chars(begin, end, most);
+    requireUsage(index >= 0 && error == std::errc() && stop == end && most >= 0,
                  "--fail-share {} is not STEP=SHARE; allowed steps: 1, 4, 16 (of 255)", limit);
-    return error.share[static_cast<std::size_t>(index)] > most;
+    return {static_cast<std::size_t>(index), most};
 }
 
 /// Also refuses NaN, beyond which nothing would be.
@@ -71,7 +77,10 @@ bool isBeyond(const DiffArguments& arguments, const metrics::LayerError& whole) 
                   (arguments.failPsnr && e.psnr < *arguments.failPsnr) ||
                   (arguments.failSsim && *whole.ssim < *arguments.failSsim) ||
                   (arguments.failFlip && *whole.flip > *arguments.failFlip);
-    for (const auto& limit : arguments.failShares) beyond |= exceedsShare(limit, e);
+    for (const auto& limit : arguments.failShares) {
+        const auto [step, most] = parseShare(limit);
+        beyond |= e.share[step] > most;
+    }
     return beyond;
 }
 
@@ -81,6 +90,7 @@ int runDiff(const DiffArguments& arguments) {
     requireRange("--pixels-per-degree", arguments.pixelsPerDegree, 1, 1000);
     if (arguments.failSsim) requireRange("--fail-ssim", *arguments.failSsim, -1, 1);
     if (arguments.failFlip) requireRange("--fail-flip", *arguments.failFlip, 0, 1);
+    for (const auto& limit : arguments.failShares) parseShare(limit);
     const auto a = image::readImage(arguments.a), b = image::readImage(arguments.b);
     const auto errors = metrics::compareImages(a, b, arguments.layer, readMask(arguments.mask),
                                                {arguments.pixelsPerDegree});

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <set>
 
 #include "runtime/error.h"
 
@@ -23,13 +22,22 @@ int parseFrame(const std::string& text, const std::string& whole) {
     return value;
 }
 
+std::vector<int> listOf(const std::vector<bool>& wanted) {
+    std::vector<int> frames;
+    for (std::size_t f = 0; f < wanted.size(); ++f)
+        if (wanted[f]) frames.push_back(static_cast<int>(f));
+    return frames;
+}
+
 }  // namespace
 
 std::vector<int> parseFrames(const std::string& text, int frameCount) {
-    std::set<int> frames;
+    std::vector<bool> wanted;
     if (text == "all") {
-        for (int f = 0; f < frameCount; ++f) frames.insert(f);
-        return {frames.begin(), frames.end()};
+        requireUsage(frameCount <= kMaxFrame + 1,
+                     "--frames all are more than {} frames; name some, as 0..119 does", kMaxFrame);
+        wanted.assign(static_cast<std::size_t>(std::max(frameCount, 0)), true);
+        return listOf(wanted);
     }
     std::size_t begin = 0;
     while (begin <= text.size()) {
@@ -40,10 +48,11 @@ std::vector<int> parseFrames(const std::string& text, int frameCount) {
         const int last =
             dots == std::string::npos ? first : parseFrame(item.substr(dots + 2), text);
         requireUsage(first <= last, "--frames '{}': {}..{} runs backwards", text, first, last);
-        for (int f = first; f <= last; ++f) frames.insert(f);
+        wanted.resize(std::max(wanted.size(), static_cast<std::size_t>(last) + 1));
+        std::fill(wanted.begin() + first, wanted.begin() + last + 1, true);
         begin = end + 1;
     }
-    return {frames.begin(), frames.end()};
+    return listOf(wanted);
 }
 
 bool hasFrameNumber(const std::string& pattern) {

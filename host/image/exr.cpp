@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "host/image/image_file.h"
 #include "runtime/error.h"
+#include "runtime/one_line.h"
 
 namespace penumbra::image {
 namespace {
@@ -97,6 +99,24 @@ void writeMasks(const std::string& path, const void* context) {
     writeFile(path, header, planes, frame.maskHeight);
 }
 
+/// OpenEXR takes as much memory as an attribute says that it has bytes, 2 GiB at most, before it
+/// reads them. Looks at the first header alone: that of the part that is read.
+void checkAttributes(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::uint64_t fileBytes = std::filesystem::file_size(path);
+    std::string name, type;
+    file.ignore(8);  // magic number and version
+    while (std::getline(file, name, '\0') && !name.empty() && std::getline(file, type, '\0')) {
+        unsigned char size[4] = {};
+        if (!file.read(reinterpret_cast<char*>(size), sizeof size)) return;
+        const std::uint64_t bytes =
+            size[0] | size[1] << 8U | size[2] << 16U | static_cast<std::uint64_t>(size[3]) << 24U;
+        require(bytes <= fileBytes, "attribute '{}' has {} bytes in a file of {}", name, bytes,
+                fileBytes);
+        file.ignore(static_cast<std::streamsize>(bytes));
+    }
+}
+
 }  // namespace
 
 void writeExrFile(const std::string& path, const Frame& frame) {
@@ -106,27 +126,26 @@ void writeExrFile(const std::string& path, const Frame& frame) {
 }
 
 LoadedImage readExrFile(const std::string& path) try {
+    checkAttributes(path);
+    Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);  // before it allocates lines of any width
     Imf::InputFile file(path.c_str());
     const auto& header = file.header();
     const auto window = header.dataWindow();
     LoadedImage image;
+    // OpenEXR has checked that these differences fit
     image.width = window.max.x - window.min.x + 1;
     image.height = window.max.y - window.min.y + 1;
-    require(image.width > 0 && image.height > 0 && image.width <= 32768 && image.height <= 32768,
-            "{} x {} pixels are outside of 1x1 to 32768x32768", image.width, image.height);
+    std::size_t channelCount = 0;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channelCount;
+    requireReadable(image.width, image.height, channelCount);
+    require(file.isComplete(), "its end is missing");
     const auto pixels =
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
         image.channels.push_back({c.name(), std::vector<float>(pixels), {}});
     Imf::FrameBuffer buffer;
-    for (auto& channel : image.channels) {
-        char* base = reinterpret_cast<char*>(channel.values.data()) -
-                     sizeof(float) * (static_cast<std::ptrdiff_t>(window.min.x) +
-                                      static_cast<std::ptrdiff_t>(window.min.y) * image.width);
-        buffer.insert(channel.name,
-                      Imf::Slice(Imf::FLOAT, base, sizeof(float),
-                                 sizeof(float) * static_cast<std::size_t>(image.width)));
-    }
+    for (auto& channel : image.channels)
+        buffer.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, channel.values.data(), window));
     file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);
     for (auto a = header.begin(); a != header.end(); ++a)
@@ -134,7 +153,7 @@ LoadedImage readExrFile(const std::string& path) try {
             image.header.emplace_back(a.name(), text->value());
     return image;
 } catch (const std::exception& error) {
-    throw Error(fmt::format("{}: not a readable EXR file: {}", path, error.what()));
+    throw Error(fmt::format("{}: not a readable EXR file: {}", path, toOneLine(error.what())));
 }
 
 }  // namespace penumbra::image

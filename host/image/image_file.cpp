@@ -18,6 +18,17 @@ std::string extensionOf(const std::string& path) {
     return extension;
 }
 
+void requireReadable(int width, int height, std::size_t channels) {
+    const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    require(
+        width > 0 && height > 0 && width <= kMaxSide && height <= kMaxSide && pixels <= kMaxPixels,
+        "{} x {} pixels; allowed are 1 to {} along a side and {} million in all", width, height,
+        kMaxSide, kMaxPixels / 1'000'000);
+    require(channels <= kMaxPlaneBytes / sizeof(float) / pixels,
+            "{} channels of {} x {} pixels; allowed are {} GiB in all", channels, width, height,
+            kMaxPlaneBytes >> 30U);
+}
+
 const std::vector<float>* LoadedImage::find(const std::string& name) const {
     for (const auto& channel : channels)
         if (channel.name == name) return &channel.values;
@@ -25,7 +36,9 @@ const std::vector<float>* LoadedImage::find(const std::string& name) const {
 }
 
 LoadedImage readImage(const std::string& path) {
-    require(std::filesystem::is_regular_file(path), "{}: no such file", path);
+    std::error_code error;
+    require(std::filesystem::exists(path, error), "{}: no such file", path);
+    require(std::filesystem::is_regular_file(path, error), "{}: is not a regular file", path);
     const auto extension = extensionOf(path);
     if (extension == ".exr") return readExrFile(path);
     if (extension == ".png") return readPngFile(path);

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include "host/image/png.h"
+
 #include <png.h>
 
 #include <cstdio>
 #include <memory>
+#include <span>
+#include <utility>
 
 #include "host/image/image_file.h"
 #include "host/image/tone_map.h"
 #include "runtime/error.h"
+#include "runtime/one_line.h"
 
 namespace penumbra::image {
 namespace {
@@ -47,6 +52,68 @@ struct Reader {
     Reader& operator=(const Reader&) = delete;
     ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
+
+/// A file on its way through libpng's progressive reader, which stops to inflate at the last pixel.
+/// The other reader inflates a hostile stream to its end.
+struct Decoding {
+    PngPixels pixels;
+    std::size_t rowBytes = 0;
+    bool whole = false;
+};
+
+Decoding& decodingOf(png_structp png) {
+    return *static_cast<Decoding*>(png_get_progressive_ptr(png));
+}
+
+void startPixels(png_structp png, png_infop info) {
+    auto& decoding = decodingOf(png);
+    auto& pixels = decoding.pixels;
+    pixels.width = static_cast<int>(png_get_image_width(png, info));
+    pixels.height = static_cast<int>(png_get_image_height(png, info));
+    requireReadable(pixels.width, pixels.height, 4);
+    png_set_expand(png);
+    png_set_strip_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
+    png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    decoding.rowBytes = png_get_rowbytes(png, info);
+    pixels.rgba.resize(decoding.rowBytes * static_cast<std::size_t>(pixels.height));
+}
+
+void takeRow(png_structp png, png_bytep row, png_uint_32 number, int) {
+    auto& decoding = decodingOf(png);
+    if (row != nullptr)  // null: this pass of an interlaced file changes nothing here
+        png_progressive_combine_row(png, &decoding.pixels.rgba[number * decoding.rowBytes], row);
+}
+
+void finishPixels(png_structp png, png_infop info) {
+    constexpr int kPasses = 7;
+    const bool interlaced = png_get_interlace_type(png, info) == PNG_INTERLACE_ADAM7;
+    const bool complete = interlaced
+                              ? png_get_current_pass_number(png) >= kPasses
+                              : png_get_current_row_number(png) >= png_get_image_height(png, info);
+    require(complete, "it has fewer pixels than its header tells");
+    decodingOf(png).whole = true;
+}
+
+/// `next` gives the file's pieces, and an empty one at its end.
+template <typename Next>
+PngPixels decode(const Next& next) {
+    Reader r;
+    Decoding decoding;
+    png_set_progressive_read_fn(r.png, &decoding, startPixels, takeRow, finishPixels);
+    png_set_user_limits(r.png, kMaxSide, kMaxSide);
+    for (auto piece = next(); !piece.empty() && !decoding.whole; piece = next())
+        // libpng takes no const; it only reads
+        png_process_data(r.png, r.info, const_cast<png_bytep>(piece.data()), piece.size());
+    require(decoding.whole, "it ends too early");
+    png_textp text = nullptr;
+    int count = 0;
+    png_get_text(r.png, r.info, &text, &count);
+    for (int i = 0; i < count; ++i) decoding.pixels.header.emplace_back(text[i].key, text[i].text);
+    return std::move(decoding.pixels);
+}
 
 }  // namespace
 
@@ -97,44 +164,34 @@ std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int wi
     return bytes;
 }
 
+PngPixels decodePng(const unsigned char* bytes, std::size_t size) {
+    std::span<const png_byte> rest(bytes, size);
+    return decode([&] { return std::exchange(rest, {}); });
+}
+
 LoadedImage readPngFile(const std::string& path) try {
     const File file = openFile(path, "rb");
-    Reader r;
-    png_init_io(r.png, file.get());
-    png_set_user_limits(r.png, 32768, 32768);
-    png_read_info(r.png, r.info);
-    png_set_expand(r.png);
-    png_set_strip_16(r.png);
-    png_set_gray_to_rgb(r.png);
-    png_set_add_alpha(r.png, 255, PNG_FILLER_AFTER);
-    png_set_interlace_handling(r.png);
-    png_read_update_info(r.png, r.info);
+    std::vector<png_byte> buffer(1 << 16);
+    PngPixels pixels = decode([&] {
+        const auto size = std::fread(buffer.data(), 1, buffer.size(), file.get());
+        return std::span<const png_byte>(buffer.data(), size);
+    });
     LoadedImage image;
     image.srgb = true;
-    image.width = static_cast<int>(png_get_image_width(r.png, r.info));
-    image.height = static_cast<int>(png_get_image_height(r.png, r.info));
-    const auto rowBytes = png_get_rowbytes(r.png, r.info);
-    std::vector<png_byte> texels(rowBytes * static_cast<std::size_t>(image.height));
-    std::vector<png_bytep> rows;
-    rows.reserve(static_cast<std::size_t>(image.height));
-    for (int y = 0; y < image.height; ++y)
-        rows.push_back(texels.data() + rowBytes * static_cast<std::size_t>(y));
-    png_read_image(r.png, rows.data());
-    png_read_end(r.png, r.info);
+    image.width = pixels.width;
+    image.height = pixels.height;
+    image.header = std::move(pixels.header);
     const char* names[] = {"R", "G", "B", "A"};
     for (std::size_t c = 0; c < 4; ++c) {
         Channel channel{names[c], {}, {}};
-        for (std::size_t i = c; i < texels.size(); i += 4)
-            channel.values.push_back(static_cast<float>(texels[i]) / 255);
+        channel.values.reserve(pixels.rgba.size() / 4);
+        for (std::size_t i = c; i < pixels.rgba.size(); i += 4)
+            channel.values.push_back(static_cast<float>(pixels.rgba[i]) / 255);
         image.channels.push_back(std::move(channel));
     }
-    png_textp text = nullptr;
-    int count = 0;
-    png_get_text(r.png, r.info, &text, &count);
-    for (int i = 0; i < count; ++i) image.header.emplace_back(text[i].key, text[i].text);
     return image;
 } catch (const std::exception& error) {
-    throw Error(fmt::format("{}: not a readable PNG file: {}", path, error.what()));
+    throw Error(fmt::format("{}: not a readable PNG file: {}", path, toOneLine(error.what())));
 }
 
 }  // namespace penumbra::image

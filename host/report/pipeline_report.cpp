@@ -66,7 +66,8 @@ std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, 
                         "one launch at a time",
                         device_->info().name));
     if (const auto dropped = geometry_->counts().nonFiniteVertices)
-        warnOnce(fmt::format("{} vertices are not finite: their triangles are dropped", dropped));
+        warnOnce(fmt::format(
+            "{} vertices are not finite or too far away: their triangles are dropped", dropped));
     if (counts.nearPoints)
         warnOnce(fmt::format(
             "casters lie nearer to a light than its near plane: {} points keep depth 1; set "

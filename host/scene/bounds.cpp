@@ -8,7 +8,7 @@ namespace penumbra::scene {
 namespace {
 
 constexpr double kFramesPerSecond = 24;
-constexpr int kMaxFrames = 240;
+constexpr double kMaxFrames = 240;
 constexpr double kMaxPosedVertices = 3e7;  // a few seconds of host time
 
 std::vector<bool> movedNodes(const Scene& scene, const std::vector<int>& clips) {
@@ -77,8 +77,9 @@ Bounds boundsOf(const Scene& scene, const std::vector<int>& clips, bool castersO
     const double duration = clipDurationSeconds(scene, clips);
     if (moving.empty() || duration <= 0) return bounds;
     const double affordable = kMaxPosedVertices / std::max(movingVertices, 1.0);
-    const int frames = std::clamp(static_cast<int>(std::ceil(duration * kFramesPerSecond)), 1,
-                                  std::clamp(static_cast<int>(affordable), 2, kMaxFrames));
+    const double most = std::clamp(std::floor(affordable), 2.0, kMaxFrames);
+    const auto frames =
+        static_cast<int>(std::clamp(std::ceil(duration * kFramesPerSecond), 1.0, most));
     for (int i = 1; i <= frames; ++i) {
         const Pose pose = poseAt(scene, clips, duration * i / frames);
         for (const int node : moving) addNode(scene, pose, node, bounds);

@@ -15,8 +15,9 @@ constexpr double kSpare = 1.1;
 
 /// The orthonormal frame nearest to a node's matrix, whatever its scale.
 glm::dmat4 withoutScale(const glm::dmat4& m) {
-    const glm::dvec3 z = glm::normalize(glm::dvec3(m[2]));
-    const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(m[1]), z));
+    const glm::dvec3 z = directionOr(glm::dvec3(m[2]), {0, 0, 1});
+    const glm::dvec3 across = directionOr(glm::cross({z.y, z.z, z.x}, z), {1, 0, 0});
+    const glm::dvec3 x = directionOr(glm::cross(glm::dvec3(m[1]), z), across);
     return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), m[3]};
 }
 
@@ -86,6 +87,15 @@ glm::dmat4 cameraFromRebased(const CameraFrame& camera, const glm::dvec3& centre
 }
 
 }  // namespace
+
+bool hasDirection(const glm::dvec3& axis) {
+    const double length = glm::length(axis);
+    return length > 1e-150 && std::isfinite(length);
+}
+
+glm::dvec3 directionOr(const glm::dvec3& axis, const glm::dvec3& otherwise) {
+    return hasDirection(axis) ? axis / glm::length(axis) : otherwise;
+}
 
 glm::dmat4 lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up) {
     const glm::dvec3 z = glm::normalize(eye - target);

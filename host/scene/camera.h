@@ -12,6 +12,11 @@
 
 namespace penumbra::scene {
 
+/// False for an axis too short, too long or not finite, which a node's scale can make of it.
+bool hasDirection(const glm::dvec3& axis);
+/// Unit vector along the axis, or `otherwise` where it has no direction.
+glm::dvec3 directionOr(const glm::dvec3& axis, const glm::dvec3& otherwise);
+
 /// What the user asks for. Given eye or target, the camera is placed by hand; else by name; else
 /// the file's first, else "auto": azimuth 30, elevation 20, field of view 40 degrees, the bounds'
 /// sphere fits with 10 % to spare.

@@ -203,14 +203,24 @@ bool holdsFloats(const LoadContext& context, int accessor) {
            TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
+namespace {
+
+/// What `checked` takes as elements of 4 bytes, before it is taken.
+void chargeElements(LoadContext& context, const CheckedAccessor& checked, int components) {
+    const std::uint64_t bytesEach = 4 * static_cast<std::uint64_t>(components);
+    if (checked.base == nullptr) context.chargeZeros(checked.count, bytesEach, checked.name);
+    context.charge(checked.count, bytesEach, checked.name);
+}
+
+}  // namespace
+
 std::vector<float> readFloats(LoadContext& context, int accessor, int components,
                               const std::string& user) {
     const CheckedAccessor checked = checkAccessor(context, accessor, components, user);
     require(checked.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
             "{} has componentType 5125 (32-bit integers); only indices may have that",
             checked.name);
-    context.charge(checked.count, sizeof(float) * static_cast<std::uint64_t>(components),
-                   checked.name);
+    chargeElements(context, checked, components);
     std::vector<float> out(checked.count * static_cast<std::uint64_t>(components));
     switch (checked.componentType) {
         case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -234,8 +244,7 @@ std::vector<float> readFloats(LoadContext& context, int accessor, int components
 std::vector<std::uint32_t> readIntegers(LoadContext& context, int accessor, int components,
                                         const std::string& user) {
     const CheckedAccessor checked = checkAccessor(context, accessor, components, user);
-    context.charge(checked.count, sizeof(std::uint32_t) * static_cast<std::uint64_t>(components),
-                   checked.name);
+    chargeElements(context, checked, components);
     std::vector<std::uint32_t> out(checked.count * static_cast<std::uint64_t>(components));
     const auto widen = [](auto number) { return static_cast<std::uint32_t>(number); };
     switch (checked.componentType) {

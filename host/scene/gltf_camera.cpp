@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "host/scene/camera.h"
 #include "host/scene/gltf_context.h"
 
 namespace penumbra::scene {
@@ -39,9 +40,15 @@ Camera loadCamera(const tinygltf::Camera& source, const std::string& user) {
     return camera;
 }
 
+/// False where the node's scale leaves no direction to look along or no side.
+bool hasFrame(const glm::dmat4& worldFromNode) {
+    const glm::dvec3 up(worldFromNode[1]), back(worldFromNode[2]);
+    return hasDirection(back) && hasDirection(glm::cross(up, back));
+}
+
 }  // namespace
 
-void loadCameras(LoadContext& context) {
+void loadCameras(LoadContext& context, const std::vector<glm::dmat4>& worldFromNode) {
     Scene& scene = context.scene;
     for (const int index : scene.order) {
         const int used = context.model.nodes[static_cast<std::size_t>(index)].camera;
@@ -49,7 +56,13 @@ void loadCameras(LoadContext& context) {
         const auto at = static_cast<std::size_t>(used);
         const tinygltf::Camera& source = context.model.cameras[at];
         Node& node = scene.nodes[static_cast<std::size_t>(index)];
-        Camera camera = loadCamera(source, describe("camera", at, source.name));
+        const std::string user = describe("camera", at, source.name);
+        Camera camera = loadCamera(source, user);
+        if (!hasFrame(worldFromNode[static_cast<std::size_t>(index)])) {
+            context.warn(fmt::format("{} is not used: {} scales it to nothing", user,
+                                     describe("node", static_cast<std::size_t>(index), node.name)));
+            continue;
+        }
         camera.node = index;
         if (camera.name.empty()) camera.name = node.name;
         node.camera = static_cast<int>(scene.cameras.size());

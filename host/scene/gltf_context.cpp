@@ -38,6 +38,15 @@ void LoadContext::charge(std::uint64_t count, std::uint64_t bytesEach, const std
     bytesLeft_ -= count * bytesEach;
 }
 
+void LoadContext::chargeZeros(std::uint64_t count, std::uint64_t bytesEach,
+                              const std::string& what) {
+    require(count <= zeroBytesLeft_ / bytesEach,
+            "{} has {} elements of {} bytes, and no bufferView that holds them; all such zeros "
+            "together may take {} MiB of memory",
+            what, count, bytesEach, kMaxZeroBytes >> 20U);
+    zeroBytesLeft_ -= count * bytesEach;
+}
+
 std::string describe(const char* kind, std::size_t index, const std::string& name) {
     return name.empty() ? fmt::format("{} {}", kind, index)
                         : fmt::format("{} {} \"{}\"", kind, index, name);
@@ -47,16 +56,6 @@ void checkIndex(int index, std::size_t size, const std::string& user, const char
     require(index >= 0 && static_cast<std::size_t>(index) < size,
             "{} refers to {} {}, but the file has {} of them, counted from 0", user, kind, index,
             size);
-}
-
-std::string toOneLine(const std::string& text) {
-    constexpr std::size_t kLongest = 400;
-    std::string line = text.substr(0, kLongest);
-    std::replace_if(
-        line.begin(), line.end(),
-        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
-    while (!line.empty() && line.back() == ' ') line.pop_back();
-    return text.size() > kLongest ? line + "..." : line;
 }
 
 void checkExtensions(LoadContext& context) {

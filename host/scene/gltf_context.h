@@ -16,15 +16,25 @@
 
 #include "host/scene/scene.h"
 #include "runtime/error.h"
+#include "runtime/one_line.h"
 
 namespace penumbra::scene {
 
 /// Largest sum of all decoded arrays and images. A small file can name one accessor, or one
 /// strongly compressed image, thousands of times; this bounds what it can ask for.
+/// A fuzzer's time goes to parsers, not to the filling of memory.
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+constexpr std::uint64_t kMaxDecodedBytes = 4ULL << 20U;
+#else
 constexpr std::uint64_t kMaxDecodedBytes = 8ULL << 30U;
+#endif
+
+/// Largest sum of elements that have no bytes in the file and so are zeros: a hundred bytes can ask
+/// for any number of them.
+constexpr std::uint64_t kMaxZeroBytes = kMaxDecodedBytes / 32;
 
 /// Images larger than this along a side are refused before they are decoded.
-constexpr int kMaxImageSide = 8192;
+constexpr std::uint32_t kMaxImageSide = 8192;
 
 struct LoadContext {
     LoadContext(const tinygltf::Model& source, Scene& target) : model(source), scene(target) {}
@@ -41,9 +51,11 @@ struct LoadContext {
     void warn(const std::string& message);
     /// Takes count * bytesEach from what may be decoded; throws before anything is allocated.
     void charge(std::uint64_t count, std::uint64_t bytesEach, const std::string& what);
+    /// The same for elements that are zeros because the file has none; these are charged twice.
+    void chargeZeros(std::uint64_t count, std::uint64_t bytesEach, const std::string& what);
 
   private:
-    std::uint64_t bytesLeft_ = kMaxDecodedBytes;
+    std::uint64_t bytesLeft_ = kMaxDecodedBytes, zeroBytesLeft_ = kMaxZeroBytes;
     std::set<std::string> warned_;
 };
 
@@ -52,10 +64,6 @@ std::string describe(const char* kind, std::size_t index, const std::string& nam
 
 /// Throws unless 0 <= index < size. `user` refers to `kind` number `index`.
 void checkIndex(int index, std::size_t size, const std::string& user, const char* kind);
-
-/// Control characters become spaces and long texts (data URIs) are cut, so that a message is one
-/// line.
-std::string toOneLine(const std::string& text);
 
 /// Extensions: those in extensionsRequired must be ours, the other ones that we ignore are named.
 void checkExtensions(LoadContext& context);
@@ -68,7 +76,7 @@ void loadNodes(LoadContext& context);  ///< also Scene::order
 void loadSkins(LoadContext& context);  ///< needs meshes and nodes
 void loadAnimations(LoadContext& context);
 /// These two need the pose of rest, `worldFromNode` [node].
-void loadCameras(LoadContext& context);
+void loadCameras(LoadContext& context, const std::vector<glm::dmat4>& worldFromNode);
 void loadLights(LoadContext& context, const std::vector<glm::dmat4>& worldFromNode);
 
 }  // namespace penumbra::scene

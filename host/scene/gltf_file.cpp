@@ -167,8 +167,8 @@ tinygltf::Model parseGltf(const unsigned char* bytes, std::size_t size, External
     reviewComplaints(complaints, warnings);
     require(model.asset.version.rfind("2.", 0) == 0 &&
                 (model.asset.minVersion.empty() || model.asset.minVersion == "2.0"),
-            "is glTF {} (at least {}); only 2.0 is supported", toOneLine(model.asset.version),
-            model.asset.minVersion.empty() ? "any" : toOneLine(model.asset.minVersion));
+            "is glTF {}{}{}; only 2.0 is supported", toOneLine(model.asset.version),
+            model.asset.minVersion.empty() ? "" : " and needs ", toOneLine(model.asset.minVersion));
     return model;
 }
 

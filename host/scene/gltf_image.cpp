@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Images: encoded bytes to 8-bit RGBA by stb_image, which is shown nothing but PNG and JPEG.
+// Images: encoded bytes to 8-bit RGBA. PNG goes to libpng, which inflates no more than the pixels
+// of its header; stb_image would inflate a stream of any length. JPEG goes to stb_image, which is
+// shown nothing else.
 #include <stb_image.h>
 
+#include <array>
 #include <cstring>
 #include <memory>
 #include <string_view>
 
+#include "host/image/png.h"
 #include "host/scene/gltf_accessor.h"
 #include "host/scene/gltf_context.h"
 
 namespace penumbra::scene {
 
 namespace {
+
+constexpr int kMaxJpegScans = 100;  // encoders write ten
 
 bool startsWith(const ByteSpan& bytes, std::string_view magic, std::size_t offset = 0) {
     return bytes.size >= offset + magic.size() &&
@@ -31,8 +37,12 @@ std::string foreignFormat(const ByteSpan& bytes, const std::string& mediaType) {
     return {};
 }
 
-bool isPngOrJpeg(const ByteSpan& bytes) {
-    return startsWith(bytes, "\x89PNG\r\n\x1A\n") || startsWith(bytes, "\xFF\xD8\xFF");
+bool isPng(const ByteSpan& bytes) {
+    return startsWith(bytes, "\x89PNG\r\n\x1A\n");
+}
+
+bool isJpeg(const ByteSpan& bytes) {
+    return startsWith(bytes, "\xFF\xD8\xFF");
 }
 
 ByteSpan encodedBytes(const LoadContext& context, const tinygltf::Image& image,
@@ -41,21 +51,60 @@ ByteSpan encodedBytes(const LoadContext& context, const tinygltf::Image& image,
     return {image.image.data(), image.image.size()};
 }
 
-Image decode(LoadContext& context, const ByteSpan& bytes, const std::string& user) {
-    const int size = static_cast<int>(bytes.size);  // files have at most 2^31 - 1 bytes
+/// Each scan of a JPEG passes over the whole image, however few bytes it has.
+void checkScans(const ByteSpan& bytes, const std::string& user) {
+    int scans = 0;
+    for (std::uint64_t i = 0; i + 1 < bytes.size; ++i)
+        scans += bytes.data[i] == 0xFF && bytes.data[i + 1] == 0xDA ? 1 : 0;
+    require(scans <= kMaxJpegScans, "{} has {} scans; at most {} are allowed", user, scans,
+            kMaxJpegScans);
+}
+
+std::string failureReason() {
+    const char* const reason = stbi_failure_reason();  // null where stb_image gave none
+    return reason == nullptr ? "not a JPEG that stb_image reads" : reason;
+}
+
+/// Width and height as the header tells them.
+std::array<std::uint32_t, 2> headerSize(const ByteSpan& bytes, const std::string& user) {
+    if (isPng(bytes)) {
+        require(bytes.size >= 24, "{} is corrupt: it ends inside of its header", user);
+        std::array<std::uint32_t, 2> size{};
+        for (std::size_t i = 0; i < 8; ++i) size[i / 4] = size[i / 4] << 8U | bytes.data[16 + i];
+        return size;
+    }
     int width = 0, height = 0, channels = 0;
-    require(stbi_info_from_memory(bytes.data, size, &width, &height, &channels) != 0,
-            "{} is corrupt: {}", user, stbi_failure_reason());
+    const int length = static_cast<int>(bytes.size);  // files have at most 2^31 - 1 bytes
+    require(stbi_info_from_memory(bytes.data, length, &width, &height, &channels) != 0,
+            "{} is corrupt: {}", user, failureReason());
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+}
+
+Image decodeJpeg(const ByteSpan& bytes, const std::string& user) {
+    checkScans(bytes, user);
+    int width = 0, height = 0, channels = 0;
+    const int length = static_cast<int>(bytes.size);
+    const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
+        stbi_load_from_memory(bytes.data, length, &width, &height, &channels, 4), stbi_image_free);
+    require(decoded != nullptr, "{} is corrupt: {}", user, failureReason());
+    const auto texels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return {width, height, {decoded.get(), decoded.get() + texels * 4}};
+}
+
+Image decodePng(const ByteSpan& bytes, const std::string& user) try {
+    image::PngPixels pixels = image::decodePng(bytes.data, bytes.size);
+    return {pixels.width, pixels.height, std::move(pixels.rgba)};
+} catch (const Error& error) {
+    throw Error(fmt::format("{} is corrupt: {}", user, error.what()));
+}
+
+Image decode(LoadContext& context, const ByteSpan& bytes, const std::string& user) {
+    const auto [width, height] = headerSize(bytes, user);
     require(width > 0 && height > 0 && width <= kMaxImageSide && height <= kMaxImageSide,
             "{} has {} x {} texels; at most {} x {} are allowed", user, width, height,
             kMaxImageSide, kMaxImageSide);
-    const std::uint64_t texels =
-        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    context.charge(texels, 4, user);
-    const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
-        stbi_load_from_memory(bytes.data, size, &width, &height, &channels, 4), stbi_image_free);
-    require(decoded != nullptr, "{} is corrupt: {}", user, stbi_failure_reason());
-    return {width, height, {decoded.get(), decoded.get() + texels * 4}};
+    context.charge(static_cast<std::uint64_t>(width) * height, 4, user);
+    return isPng(bytes) ? decodePng(bytes, user) : decodeJpeg(bytes, user);
 }
 
 std::string mediaTypeOf(const tinygltf::Image& image) {
@@ -84,7 +133,7 @@ int loadImage(LoadContext& context, int gltfImage) {
         return -1;
     }
     require(bytes.size > 0 || !external, "{} was not found or is empty", user);
-    require(isPngOrJpeg(bytes), "{} is corrupt: it is neither PNG nor JPEG", user);
+    require(isPng(bytes) || isJpeg(bytes), "{} is corrupt: it is neither PNG nor JPEG", user);
     Image decoded = decode(context, bytes, user);
     sceneImage = static_cast<int>(context.scene.images.size());
     context.scene.images.push_back(std::move(decoded));

@@ -11,6 +11,7 @@
 #include <glm/gtc/constants.hpp>
 #include <optional>
 
+#include "host/scene/camera.h"
 #include "host/scene/gltf_context.h"
 #include "host/scene/gltf_value.h"
 
@@ -219,6 +220,9 @@ void loadLights(LoadContext& context, const std::vector<glm::dmat4>& worldFromNo
         std::string problem;
         std::optional<Light> light = makePunctualLight(source, node.extras, user, problem);
         if (light) readViews(node.extras, source.extras, user, *light, problem);
+        const bool aimed = source.type != "point";
+        if (problem.empty() && aimed && !hasDirection(glm::dvec3(worldFromNode[at][2])))
+            problem = "a node whose scale leaves it no direction";
         addLight(context, nodeIndex, std::move(light), source.name, user, problem);
     }
 }

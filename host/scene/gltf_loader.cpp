@@ -44,7 +44,7 @@ Scene loadBytes(const unsigned char* bytes, std::size_t size, ExternalFiles& fil
     loadAnimations(context);
     const Pose rest = poseAt(scene, {}, 0);
     checkRestPose(scene, rest);
-    loadCameras(context);
+    loadCameras(context, rest.worldFromNode);
     loadLights(context, rest.worldFromNode);
     return scene;
 }

@@ -232,6 +232,9 @@ void loadMeshes(LoadContext& context) {
                 context.warn(fmt::format("{} has no triangles and is ignored", primitiveUser));
                 continue;
             }
+            if (!hasArea(primitive))
+                context.warn(fmt::format("{}: none of its {} triangles has an area", primitiveUser,
+                                         primitive.indices.size() / 3));
             mesh.primitives.push_back(std::move(primitive));
             for (const auto& joints : mesh.primitives.back().joints)
                 largestJoint =

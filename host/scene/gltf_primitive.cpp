@@ -87,6 +87,18 @@ void makeFlatNormals(Primitive& primitive) {
         primitive.indices[i] = static_cast<std::uint32_t>(i);
 }
 
+bool hasArea(const Primitive& primitive) {
+    if (!primitive.targets.empty() || !primitive.joints.empty()) return true;
+    const auto& corners = primitive.indices;
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+        const glm::dvec3 a(primitive.positions[corners[i]]);
+        const glm::dvec3 b(primitive.positions[corners[i + 1]]);
+        const glm::dvec3 c(primitive.positions[corners[i + 2]]);
+        if (glm::cross(b - a, c - a) != glm::dvec3(0)) return true;
+    }
+    return false;
+}
+
 std::size_t normalizeWeights(Primitive& primitive) {
     std::size_t bound = 0;
     for (std::size_t vertex = 0; vertex < primitive.weights.size(); ++vertex) {

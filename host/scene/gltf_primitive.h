@@ -22,6 +22,9 @@ std::uint64_t vertexBytes(const Primitive& primitive);
 /// weight 1.
 void makeFlatNormals(Primitive& primitive);
 
+/// False if no triangle has an area, at rest and for good: neither morphed nor skinned.
+bool hasArea(const Primitive& primitive);
+
 /// Weights of each vertex: not finite or negative ones become 0, then the sum 1; all zero binds to
 /// joint 0. Joints without weight become joint 0. Returns the number of vertices that had to be
 /// bound.

@@ -15,7 +15,8 @@ namespace penumbra::scene {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kSunDistance = 20;  // R
+constexpr double kSunDistance = 20;      // R
+constexpr double kLargestNumber = 1e12;  // of --light: products of some stay finite floats
 
 std::string cleanName(const std::string& name, std::size_t index, std::set<std::string>& used) {
     std::string clean;
@@ -28,8 +29,9 @@ std::string cleanName(const std::string& name, std::size_t index, std::set<std::
 
 /// Sets the frame so that the light goes along `direction` and axisX is near to `hint`.
 void aim(AreaLight& light, const glm::dvec3& direction, const glm::dvec3& hint) {
-    light.axisZ = glm::normalize(direction);
-    glm::dvec3 x = hint - glm::dot(hint, light.axisZ) * light.axisZ;
+    light.axisZ = directionOr(direction, {0, -1, 0});
+    const glm::dvec3 side = directionOr(hint, {0, 0, 0});
+    glm::dvec3 x = side - glm::dot(side, light.axisZ) * light.axisZ;
     if (glm::length(x) < 1e-9) x = glm::cross(light.axisZ, glm::dvec3(0.31, 0.77, -0.55));
     light.axisX = glm::normalize(x);
     light.axisY = glm::cross(light.axisZ, light.axisX);
@@ -92,9 +94,10 @@ std::vector<double> numbers(const std::string& field, const std::string& text, c
         const auto end = std::min(text.find(separator, begin), text.size());
         double value = 0;
         const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + end, value);
-        requireUsage(error == std::errc() && stop == text.data() + end && std::isfinite(value),
-                     "--light: {}={} is not a list of numbers separated by '{}'", field, text,
-                     separator);
+        requireUsage(
+            error == std::errc() && stop == text.data() + end && std::abs(value) <= kLargestNumber,
+            "--light: {}={} is not a list of numbers, up to {}, separated by '{}'", field, text,
+            kLargestNumber, separator);
         values.push_back(value);
         begin = end + 1;
     }

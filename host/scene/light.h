@@ -28,6 +28,8 @@ struct SampleChoice {
 SampleChoice parseSampleCount(const std::string& text, SampleChoice base,
                               const std::string& option = "--light-samples");
 Pattern parsePattern(const std::string& text);
+/// A number below 2^32, or "frame" for the frame's own. Throws Error (usage).
+std::uint32_t parseSeed(const std::string& text, int frame);
 
 /// Offsets in [-1, 1]^2 (disk: in the unit disk), to be scaled by half the light's size.
 /// hammersley lies concentrically on disks, poisson is Bridson's in the shape itself; one sample

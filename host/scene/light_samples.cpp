@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "host/scene/light.h"
 #include "host/scene/poisson_disk.h"
@@ -100,6 +101,16 @@ Pattern parsePattern(const std::string& text) {
             "random",
             text),
         ExitCode::usage);
+}
+
+std::uint32_t parseSeed(const std::string& text, int frame) {
+    if (text == "frame") return static_cast<std::uint32_t>(frame);
+    std::uint32_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    requireUsage(error == std::errc() && end == text.data() + text.size(),
+                 "--seed '{}' is neither a whole number from 0 to {} nor 'frame'", text,
+                 std::numeric_limits<std::uint32_t>::max());
+    return seed;
 }
 
 std::vector<glm::dvec2> samplePattern(const SampleChoice& choice, bool disk) {

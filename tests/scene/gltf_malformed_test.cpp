@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files that are broken, hostile or ask for what is not supported: always an Error of one line that
-// names the file, never a crash, a hang or a large allocation.
+// names the file, never a crash, a hang or a large allocation. Whole messages, one file a row, are
+// in bad_scenes_test.cpp and bad_files_test.cpp; here are rules that need several files.
 #include <limits>
 #include <random>
 
@@ -27,36 +28,6 @@ std::string refuseAccessor(const std::string& text, const std::string& views = "
     return refuse(GltfTestFile::meshOf(R"("attributes":{"POSITION":0})") + views, file);
 }
 
-TEST(GltfMalformedTest, AccessorsMustLieInTheirView) {
-    const std::string vec3 = R"("componentType":5126,"type":"VEC3",)";
-    EXPECT_TRUE(
-        contains(refuseAccessor(vec3 + R"("bufferView":0,"count":4)"), "more than the 36 bytes"));
-    EXPECT_TRUE(contains(refuseAccessor(vec3 + R"("bufferView":0,"byteOffset":4,"count":3)"),
-                         "more than the 36 bytes"));
-    EXPECT_TRUE(
-        contains(refuseAccessor(vec3 + R"("bufferView":0,"byteOffset":2147483647,"count":1)"),
-                 "more than the 36 bytes"));
-    EXPECT_TRUE(contains(refuseAccessor(vec3 + R"("bufferView":0,"count":2147483647)"),
-                         "more than the 36 bytes"));
-    EXPECT_TRUE(contains(refuseAccessor(vec3 + R"("bufferView":1,"count":3)"), "bufferView 1"));
-    EXPECT_TRUE(contains(refuseAccessor(vec3 + R"("bufferView":0,"count":0)"), "no elements"));
-}
-
-TEST(GltfMalformedTest, AccessorsMustHaveAFittingType) {
-    EXPECT_TRUE(
-        contains(refuseAccessor(R"("bufferView":0,"componentType":5126,"type":"VEC2","count":3)"),
-                 "2 components"));
-    EXPECT_TRUE(contains(
-        refuseAccessor(R"("bufferView":0,"componentType":5125,"type":"VEC3","count":3)"), "5125"));
-    EXPECT_TRUE(contains(
-        refuseAccessor(R"("bufferView":0,"componentType":5130,"type":"VEC3","count":1)"), "5130"));
-    EXPECT_TRUE(
-        contains(refuseAccessor(R"("bufferView":0,"componentType":5126,"type":"MAT3","count":1)"),
-                 "matrices"));
-    EXPECT_TRUE(contains(
-        refuseAccessor(R"("bufferView":0,"componentType":9999,"type":"VEC3","count":1)"), "9999"));
-}
-
 TEST(GltfMalformedTest, NumbersThatAreNotWholeOrTooLargeAreRefused) {
     // tinygltf would read the first as 0 and wrap the others
     for (const char* const offset : {"-4", "4.0", "1e1", "4294967296", "99999999999999999999"})
@@ -65,19 +36,18 @@ TEST(GltfMalformedTest, NumbersThatAreNotWholeOrTooLargeAreRefused) {
                 R"("bufferView":0,"componentType":5126,"type":"VEC3","count":1,"byteOffset":{})",
                 offset)),
             fmt::format("\"byteOffset\": {}", offset)));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"children":[1.5]},{}])"), "\"children\": 1.5"));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"mesh":-1}])"), "\"mesh\": -1"));
     EXPECT_NO_THROW(GltfTestFile().load(R"("nodes":[{"extras":{"count":-1.5}}])"));
 }
 
 TEST(GltfMalformedTest, AccessorsWithoutDataCannotAskForMuchMemory) {
-    EXPECT_TRUE(contains(refuseAccessor(R"("componentType":5126,"type":"VEC3","count":2147483647)"),
-                         "GiB"));
-    // One of 2 GiB would be fine, but 100 primitives use it
+    // Either alone would be fine
     GltfTestFile file;
-    file.accessorText(R"({"componentType":5126,"type":"VEC3","count":1000000000})");
-    EXPECT_TRUE(
-        contains(refuse(GltfTestFile::meshOf(R"("attributes":{"POSITION":0})"), file), "GiB"));
+    file.accessorText(R"({"componentType":5126,"type":"VEC3","count":3})");
+    file.accessorText(R"({"componentType":5126,"type":"VEC3","count":22369620})");
+    EXPECT_TRUE(contains(
+        refuse(GltfTestFile::meshOf(R"("attributes":{"POSITION":0},"targets":[{"POSITION":1}])"),
+               file),
+        "256 MiB"));
 }
 
 TEST(GltfMalformedTest, ViewsAndBuffersMustFit) {
@@ -124,64 +94,28 @@ TEST(GltfMalformedTest, SparsePartsAreChecked) {
 
 TEST(GltfMalformedTest, PrimitivesMustAgreeWithThemselves) {
     GltfTestFile file;
-    file.accessor(rightTriangle(), "VEC3");                                     // 0
-    file.accessor<float>({0, 0, 1, 0, 0, 1}, "VEC3");                           // 1
-    file.accessor<std::uint8_t>({0, 1, 3}, "SCALAR");                           // 2
-    file.accessor<std::uint8_t>({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC4");  // 3
+    file.accessor(rightTriangle(), "VEC3");            // 0
+    file.accessor<float>({0, 0, 1, 0, 0, 1}, "VEC3");  // 1
     const auto primitive = [&](const std::string& members) {
         return refuse(GltfTestFile::meshOf(members), file);
     };
-    EXPECT_TRUE(contains(primitive(R"("attributes":{"POSITION":0},"indices":2)"), "the index 3"));
-    EXPECT_TRUE(contains(primitive(R"("attributes":{"POSITION":0},"indices":0)"), "indices"));
     EXPECT_TRUE(contains(primitive(R"("attributes":{"POSITION":0},"indices":9)"), "out of bounds"));
     EXPECT_TRUE(contains(primitive(R"("attributes":{"POSITION":0,"NORMAL":1})"),
                          "2 elements, but POSITION has 3"));
-    EXPECT_TRUE(contains(primitive(R"("attributes":{"POSITION":0,"JOINTS_0":3})"),
-                         "only one of JOINTS_0 and WEIGHTS_0"));
-    EXPECT_TRUE(contains(primitive(R"("attributes":{"POSITION":-1})"), "accessor -1"));
-    EXPECT_TRUE(contains(primitive(R"("attributes":{"POSITION":0},"material":0)"), "material 0"));
-    EXPECT_TRUE(contains(primitive(R"("attributes":{"POSITION":0},"mode":7)"), "mode 7"));
+    EXPECT_TRUE(contains(primitive(R"("attributes":{"POSITION":-1})"), "\"POSITION\": -1"));
     EXPECT_TRUE(contains(primitive(R"("attributes":{"POSITION":0}},{"attributes":{"POSITION":0},)"
                                    R"("targets":[{"POSITION":0}])"),
                          "0 and 1 morph targets"));
     EXPECT_TRUE(contains(primitive(R"("mode":4)"), "attributes"));
 }
 
-TEST(GltfMalformedTest, NodesMustFormAForest) {
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"children":[0]}])"), "node 0 is its own ancestor"));
-    EXPECT_TRUE(
-        contains(refuse(R"("nodes":[{},{"children":[2]},{"children":[1]}])"), "its own ancestor"));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"children":[2]},{"children":[2]},{}])"),
-                         "both node 0 and node 1"));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"children":[1,1]},{}])"), "both node 0 and node 0"));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"children":[4]}])"), "node 4"));
-}
-
 TEST(GltfMalformedTest, ScenesMustListRoots) {
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"children":[1]},{}],"scenes":[{"nodes":[1]}])"),
-                         "must list roots"));
     EXPECT_TRUE(contains(refuse(R"("nodes":[{}],"scenes":[{"nodes":[0,0]}])"), "must list roots"));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{}],"scenes":[{"nodes":[3]}])"), "node 3"));
-    EXPECT_TRUE(contains(refuse(R"("scenes":[{}],"scene":4)"), "scene 4"));
     EXPECT_TRUE(contains(refuse(R"("scene":0)"), "scene 0"));
 }
 
-TEST(GltfMalformedTest, NodesMustReferToWhatIsThere) {
-    for (const char* const kind : {"mesh", "skin", "camera"})
-        EXPECT_TRUE(contains(refuse(fmt::format(R"("nodes":[{{"{}":5}}])", kind)),
-                             fmt::format("{} 5", kind)));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{}],"skins":[{"joints":[6]}])"), "joint node 6"));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{}],"skins":[{"joints":[]}])"), "no joints"));
-}
-
 TEST(GltfMalformedTest, TransformsMustBeAffineAndFinite) {
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"matrix":[1,0,0,0,0,1,0,0,0,0,1,0.5,0,0,0,1]}])"),
-                         "0 0 0 1 is needed"));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"matrix":[1e60,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}])"),
-                         "finite floats are needed"));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"matrix":[1,0,0,0]}])"), "16 are needed"));
     EXPECT_TRUE(contains(refuse(R"("nodes":[{"translation":[1,2]}])"), "3 are needed"));
-    EXPECT_TRUE(contains(refuse(R"("nodes":[{"scale":[1,1e300,1]}])"), "finite floats are needed"));
     EXPECT_TRUE(contains(refuse(R"("nodes":[{"rotation":[0,0,1]}])"), "4 are needed"));
     EXPECT_TRUE(warnsOnce(GltfTestFile().load(R"("nodes":[{"rotation":[0,0,0,0]}])"), "length 0"));
     std::string chain = R"("nodes":[{})";
