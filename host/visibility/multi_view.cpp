@@ -13,7 +13,7 @@ namespace penumbra::visibility {
 namespace {
 
 constexpr std::uint64_t kSampleBytes = 4096 * 2 * sizeof(float);
-constexpr int kStreamedViews = 8;  // maps that a CPU holds at a time: more fall out of its caches
+constexpr int kStreamedViews = 4;  // maps that a CPU holds at a time: more fall out of its caches
 
 }  // namespace
 
