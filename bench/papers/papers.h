@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The papers' tables and figures, measured here and printed beside the papers' own numbers.
+// The papers' tables and figures, measured here and printed beside the papers' own numbers, and
+// what is known on paper.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -44,6 +45,7 @@ double deviation(const report::ContenderResult& result);
 /// One line of cells, each padded to its column.
 void printRow(const std::vector<std::string>& cells, const std::vector<int>& widths);
 
+nlohmann::json analytic(const Request& request);
 nlohmann::json vwssTable1(const Request& request);
 nlohmann::json vwssTable2(const Request& request);
 nlohmann::json vwssFigure8(const Request& request);
