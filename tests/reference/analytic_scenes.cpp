@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/shared/gbuffer.h"
 #include "tests/reference/light_share.h"
+#include "tests/reference/shadow_run.h"
 #include "tests/support/scene_builder.h"
 
 namespace penumbra::tests {
@@ -149,6 +151,31 @@ void AnalyticError::finish() {
     const double count = static_cast<double>(std::max<std::size_t>(penumbra, 1));
     mean /= count;
     bias /= count;
+}
+
+AnalyticError measureAnalytic(const std::vector<AnalyticScene>& scenes,
+                              const std::string& technique, const std::string& samples) {
+    ShadowSetup setup;
+    setup.technique = technique;
+    setup.samples = samples;
+    setup.width = 64;
+    setup.height = 48;
+    // Its samples are its own, whatever the light has
+    if (technique == "mvss" && samples.find('x') == std::string::npos)
+        setup.settings["mvss.maps"] = samples;
+    AnalyticError error;
+    for (const auto& scene : scenes) {
+        setup.light = scene.light;
+        setup.eye = scene.eye;
+        setup.target = scene.target;
+        const auto run = runShadows(scene.scene, setup);
+        for (std::size_t i = 0; i < run.pixels(); ++i) {
+            const glm::dvec3 p = glm::dvec3(run.vectorAt(GB_POSITION, i)) + run.bounds.centre();
+            if (run.tested(i) && std::abs(p.y) < 1e-3) error.add(scene.truth(p), run.visibility[i]);
+        }
+    }
+    error.finish();
+    return error;
 }
 
 }  // namespace penumbra::tests

@@ -43,4 +43,8 @@ struct AnalyticError {
     void finish();
 };
 
+/// Renders the scenes, 64 x 48 pixels each, and takes their floors together.
+AnalyticError measureAnalytic(const std::vector<AnalyticScene>& scenes,
+                              const std::string& technique, const std::string& samples);
+
 }  // namespace penumbra::tests

@@ -24,7 +24,7 @@ glm::dvec2 projected(const glm::dvec3& point, const glm::dvec3& q, double height
 
 /// Share of a horizontal disk about (0, height, 0) that `point` sees past a sphere. The sphere's
 /// cone cuts the disk's plane in an ellipse: chords of it are exact, and midpoints add them up (to
-/// 1e-6 with the default). The sphere lies higher over the point than its radius.
+/// 4e-6 with the default). The sphere lies higher over the point than its radius.
 double diskBesideSphere(const glm::dvec3& point, double diskRadius, double height,
                         const glm::dvec3& centre, double radius, int chords = 4000);
 

@@ -6,16 +6,10 @@
 #include <string>
 
 #include "host/penumbra.h"
-#include "runtime/device.h"
-#include "runtime/program.h"
+#include "tests/support/opened_device.h"
 #include "tests/support/scene_builder.h"
 
 namespace penumbra::tests {
-
-/// The device under test: PENUMBRA_DEVICE, else the CPU. Opened once with profiling off.
-runtime::Device& device();
-/// A program of CMakeLists.txt, built once.
-const runtime::Program& program(const std::string& name);
 
 /// Folder of the real models: $PENUMBRA_ASSETS, else ../shared/assets beside the checkout; empty if
 /// absent.
