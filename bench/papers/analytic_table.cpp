@@ -27,8 +27,7 @@ json printErrors(const std::string& name, const std::vector<AnalyticScene>& scen
     for (const auto& samples : kSamples) {
         const bool ownSamples = technique == "mvss";
         const auto error = tests::measureAnalytic(
-            scenes, technique,
-            scenes[0].disk && !ownSamples ? samples.onDisk : samples.count);
+            scenes, technique, scenes[0].disk && !ownSamples ? samples.onDisk : samples.count);
         for (const double value : {error.mean, error.largest})
             cells.push_back(fmt::format("{:.2f}", 255 * value));
         cells.push_back(fmt::format("{:+.2f}", 255 * error.bias));

@@ -67,9 +67,9 @@ AnalyticScene sphereUnderDisk() {
     const glm::dvec3 centre(0.125, 1.5, -0.0625);
     constexpr double kRadius = 0.375, kDisk = 0.5;
     SceneBuilder builder;
-    auto result = withFloor("sphere, disk light",
-                            "disk:at=0,4,0;aim=0,0,0;up=0,0,1;radius=0.5;radiance=10;name=key",
-                            builder);
+    auto result =
+        withFloor("sphere, disk light",
+                  "disk:at=0,4,0;aim=0,0,0;up=0,0,1;radius=0.5;radiance=10;name=key", builder);
     // Facets lie within the sphere by 1.3e-4 of its radius at most
     builder.addSphere(centre, static_cast<float>(kRadius), 96, 192);
     result.scene = builder.scene();
@@ -83,9 +83,9 @@ AnalyticScene sphereUnderDisk() {
 AnalyticScene boxUnderRectangle() {
     const glm::dvec3 low(-0.375, 0.75, -0.25), high(0.25, 1.25, 0.3125);
     SceneBuilder builder;
-    auto result = withFloor("box, rectangle",
-                            "rect:at=0,4,0;aim=0,0,0;up=0,0,1;size=1.25x0.5;radiance=10;name=key",
-                            builder);
+    auto result =
+        withFloor("box, rectangle",
+                  "rect:at=0,4,0;aim=0,0,0;up=0,0,1;size=1.25x0.5;radiance=10;name=key", builder);
     builder.addBox(low, high);
     result.scene = builder.scene();
     // With up = z the light's width lies along x
@@ -93,10 +93,9 @@ AnalyticScene boxUnderRectangle() {
     result.truth = [=](const glm::dvec3& point) {
         std::vector<glm::dvec2> corners;
         for (int i = 0; i < 8; ++i)
-            corners.push_back(projected(point,
-                                        {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y,
-                                         i & 4 ? high.z : low.z},
-                                        kHeight));
+            corners.push_back(projected(
+                point, {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z},
+                kHeight));
         return 1 - commonArea(light, convexHull(corners)) / area(light);
     };
     return result;
@@ -111,8 +110,7 @@ AnalyticScene halfPlanesInSeries() {
     addHalfPlane(builder, high, kHigh);
     result.scene = builder.scene();
     result.truth = [=](const glm::dvec3& point) {
-        return area(
-            beyondEdge(beyondEdge(kSquareCorners, point, low, kLow), point, high, kHigh));
+        return area(beyondEdge(beyondEdge(kSquareCorners, point, low, kLow), point, high, kHigh));
     };
     return result;
 }

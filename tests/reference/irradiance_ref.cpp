@@ -42,8 +42,8 @@ double parallelIrradiance(const scene::AreaLight& light, const glm::dvec2& offse
         const double r = light.width / 2, squared = glm::dot(offset, offset) + distance * distance;
         const double sum = squared + r * r;
         return M_PI / 2 *
-               (1 - (squared - r * r) /
-                        std::sqrt(sum * sum - 4 * r * r * glm::dot(offset, offset)));
+               (1 -
+                (squared - r * r) / std::sqrt(sum * sum - 4 * r * r * glm::dot(offset, offset)));
     }
     const glm::dvec2 half(light.width / 2, light.height / 2);
     const glm::dvec2 low = (-half - offset) / distance, high = (half - offset) / distance;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light that arrives: irradiance in closed form, and the flux through a closed surface.
-#include <cmath>
 #include <fmt/format.h>
+
+#include <cmath>
 
 #include "tests/reference/irradiance_ref.h"
 #include "tests/reference/shade_run.h"
@@ -37,10 +38,10 @@ TEST(Energy, TheClosedFormsAreTheIntegralsOverTheLight) {
     for (const bool disk : {false, true}) {
         const auto light = makeLight(disk, 0.8, disk ? 0.8 : 0.3);
         for (const glm::dvec2& offset : {glm::dvec2(0, 0), glm::dvec2(0.2, 0.1), glm::dvec2(-1, 2)})
-            EXPECT_NEAR(parallelIrradiance(light, offset, 0.7),
-                        irradianceReference(light, before(light, offset.x, offset.y, 0.7),
-                                            -light.axisZ),
-                        1e-5)
+            EXPECT_NEAR(
+                parallelIrradiance(light, offset, 0.7),
+                irradianceReference(light, before(light, offset.x, offset.y, 0.7), -light.axisZ),
+                1e-5)
                 << disk;
     }
     const auto light = makeLight(false, 0.8, 0.6);

@@ -35,15 +35,12 @@ TEST_P(AnalyticTest, HalfPlanesAtAllAnglesAreAsNearAsBinaryVisibilityComes) {
     EXPECT_LT(255 * std::abs(error.bias), 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Exact, AnalyticTest,
-                         testing::Values(Limit{"raytrace", "256", 1.25, 8.2},
-                                         Limit{"raytrace", "16x16", 1.25, 8.2},
-                                         Limit{"raytrace", "1024", 0.6, 4.1},
-                                         Limit{"raytrace", "32x32", 0.6, 4.1},
-                                         Limit{"raster4d", "256", 1.25, 8.2},
-                                         Limit{"raster4d", "16x16", 1.25, 8.2},
-                                         Limit{"raster4d", "1024", 0.6, 4.1},
-                                         Limit{"raster4d", "32x32", 0.6, 4.1}));
+INSTANTIATE_TEST_SUITE_P(
+    Exact, AnalyticTest,
+    testing::Values(Limit{"raytrace", "256", 1.25, 8.2}, Limit{"raytrace", "16x16", 1.25, 8.2},
+                    Limit{"raytrace", "1024", 0.6, 4.1}, Limit{"raytrace", "32x32", 0.6, 4.1},
+                    Limit{"raster4d", "256", 1.25, 8.2}, Limit{"raster4d", "16x16", 1.25, 8.2},
+                    Limit{"raster4d", "1024", 0.6, 4.1}, Limit{"raster4d", "32x32", 0.6, 4.1}));
 
 TEST(AnalyticFormsTest, PolygonsAreClippedToTheirCommonArea) {
     const Polygon square = {{0, 0}, {0, 2}, {2, 2}, {2, 0}};  // clockwise
