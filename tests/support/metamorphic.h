@@ -16,7 +16,7 @@ std::vector<std::string> shadowTechniques();
 /// How far a technique may be from a property, and why it may. By default: a step of 1/65536 in few
 /// pixels, which is how lookups count light.
 struct Allowed {
-    double mean = 2e-7, largest = 2e-5;
+    double mean = 1e-6, largest = 2e-5;
     const char* why = "every technique keeps this; see kExceptions";
 };
 Allowed allowedFor(const std::string& technique, const std::string& property);
