@@ -83,5 +83,15 @@ TEST(AnalyticSceneTest, RaysAndMasksComeNearToEveryClosedForm) {
         }
 }
 
+TEST(AnalyticSceneTest, SheetsInSeriesLetTheProductThroughTheMoreSamplesThereAre) {
+    // A sheet blocks its share of the samples; how those of several fall together is chance
+    const auto scene = sheetsInSeries();
+    EXPECT_LT(255 * measureAnalytic({scene}, "raytrace", "64").largest, 0.05);
+    for (const auto& [samples, limit] : {std::pair("64", 30.0), {"256", 10.0}, {"1024", 5.0}})
+        EXPECT_LT(255 * measureAnalytic({scene}, "raster4d", samples).largest, limit) << samples;
+    EXPECT_EQ(measureAnalytic({scene}, "vwss", "64").largest,
+              measureAnalytic({scene}, "raster4d", "64").largest);
+}
+
 }  // namespace
 }  // namespace penumbra::tests
