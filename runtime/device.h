@@ -2,6 +2,7 @@
 // OpenCL devices: list, choose, explain, open.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ class Device;
 namespace penumbra::runtime {
 
 class Profiler;
+class Program;
 
 /// What a driver says of one device, and what penumbra makes of it.
 struct DeviceInfo {
@@ -94,6 +96,8 @@ class Device {
     const MemoryUse& memory() const { return memory_; }
     void accountMemory(std::int64_t bytes);
     ProgramStats& programs() { return programs_; }
+    /// Programs made so far, by name and options: passes that share one build it once.
+    std::map<std::string, std::shared_ptr<const Program>>& madePrograms() { return madePrograms_; }
 
   private:
     struct Handles;
@@ -104,6 +108,7 @@ class Device {
     std::vector<std::shared_ptr<const void>> staged_;
     MemoryUse memory_;
     ProgramStats programs_;
+    std::map<std::string, std::shared_ptr<const Program>> madePrograms_;
 };
 
 }  // namespace penumbra::runtime

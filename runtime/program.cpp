@@ -54,6 +54,12 @@ Program::Program(Device& device, const std::string& name, const std::vector<std:
     require(source != nullptr, "no embedded program '{}'", name);
     const auto start = std::chrono::steady_clock::now();
     const auto options = optionsFor(device.info(), defines);
+    auto& made = device.madePrograms()[name + options];
+    if (made) {
+        program_ = made->program_;
+        signatures_ = made->signatures_;
+        return;
+    }
     const bool ownCache = device.options().cache && !device.info().cachesBuilds;
     const auto folder = ownCache ? cacheFolder() : "";
     const auto path =
@@ -70,6 +76,7 @@ Program::Program(Device& device, const std::string& name, const std::vector<std:
     }
     const auto elapsed = std::chrono::steady_clock::now() - start;
     device.programs().ms += std::chrono::duration<double, std::milli>(elapsed).count();
+    made = std::make_shared<const Program>(*this);
 }
 
 void Program::build(const std::string& source, const std::string& options) {

@@ -14,6 +14,8 @@ const std::vector<Table>& tables() {
     static const std::vector<Table> list = {
         {"goals", "what must hold: figure, floor and goal; exit code 1 where a floor is missed",
          goals},
+        {"analytic", "every technique against closed forms: half-planes, sphere, box, series",
+         analytic},
         {"vwss-table1", "[VWSS] table 1: cost and error with 24 depth maps, four scenes",
          vwssTable1},
         {"vwss-table2", "[VWSS] table 2: the same with 128 depth maps", vwssTable2},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The papers' tables and figures, measured here and printed beside the papers' own numbers.
+// The papers' tables and figures, measured here and printed beside the papers' own numbers, and
+// what is known on paper.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -49,6 +50,7 @@ void printRow(const std::vector<std::string>& cells, const std::vector<int>& wid
 runtime::Device& openDevice(const Request& request);
 
 nlohmann::json goals(const Request& request);
+nlohmann::json analytic(const Request& request);
 nlohmann::json vwssTable1(const Request& request);
 nlohmann::json vwssTable2(const Request& request);
 nlohmann::json vwssFigure8(const Request& request);

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "host/geometry/enclosure.h"
+
 namespace penumbra::geometry {
 namespace {
 
@@ -74,13 +76,14 @@ Source appendSource(const Primitive& p, MeshArrays& arrays) {
 }
 
 std::uint32_t drawFlags(const scene::Scene& scene, const scene::Node& node, const Primitive& p,
-                        bool closed) {
+                        bool closed, bool encloses) {
     const auto& material = scene.materials[static_cast<std::size_t>(p.material)];
     std::uint32_t flags = DRAW_ANY;
     if (node.castShadow) flags |= DRAW_CASTS;
     if (node.receiveShadow) flags |= DRAW_RECEIVES;
     if (!material.doubleSided) flags |= DRAW_SINGLE_SIDED;
     if (closed) flags |= DRAW_CLOSED;
+    if (encloses) flags |= DRAW_ENCLOSES;
     if (material.alphaMode == scene::AlphaMode::mask) flags |= DRAW_MASK;
     if (material.alphaMode == scene::AlphaMode::blend || material.transmission > 0)
         flags |= DRAW_BLEND;
@@ -93,7 +96,7 @@ std::uint32_t drawFlags(const scene::Scene& scene, const scene::Node& node, cons
 }
 
 void appendDraw(const scene::Scene& scene, int nodeIndex, const Primitive& p, const Source& source,
-                bool closed, const std::vector<int>& skinFirstMatrix,
+                bool closed, bool encloses, const std::vector<int>& skinFirstMatrix,
                 const std::vector<int>& nodeFirstWeight, MeshArrays& arrays) {
     const auto& node = scene.nodes[static_cast<std::size_t>(nodeIndex)];
     const bool skinned = node.skin >= 0 && source.skinVertex >= 0;
@@ -108,7 +111,7 @@ void appendDraw(const scene::Scene& scene, int nodeIndex, const Primitive& p, co
     item.morphWeight = nodeFirstWeight[static_cast<std::size_t>(nodeIndex)];
     const auto drawIndex = static_cast<std::uint32_t>(arrays.draws.size());
     shared::Draw draw{};
-    draw.flags = drawFlags(scene, node, p, closed);
+    draw.flags = drawFlags(scene, node, p, closed, encloses);
     draw.material = static_cast<std::uint32_t>(p.material);
     draw.object = static_cast<std::uint32_t>(nodeIndex) + 1;
     draw.sourceOffset = source.vertex - item.targetVertex;
@@ -162,14 +165,19 @@ MeshArrays flatten(const scene::Scene& scene, const std::vector<int>& skinFirstM
         if (meshIndex < 0) continue;
         const auto& mesh = scene.meshes[static_cast<std::size_t>(meshIndex)];
         auto& meshSources = sources[static_cast<std::size_t>(meshIndex)];
-        if (meshSources.empty()) {
-            for (const auto& p : mesh.primitives) meshSources.push_back(appendSource(p, arrays));
-            closed[static_cast<std::size_t>(meshIndex)] = isEdgeClosed(mesh);
-        }
-        for (std::size_t i = 0; i < mesh.primitives.size(); ++i)
-            appendDraw(scene, nodeIndex, mesh.primitives[i], meshSources[i],
-                       closed[static_cast<std::size_t>(meshIndex)], skinFirstMatrix,
-                       nodeFirstWeight, arrays);
+        if (!meshSources.empty()) continue;
+        for (const auto& p : mesh.primitives) meshSources.push_back(appendSource(p, arrays));
+        closed[static_cast<std::size_t>(meshIndex)] = isEdgeClosed(mesh);
+    }
+    const auto enclosing = findEnclosing(scene, closed);
+    for (const int nodeIndex : scene.order) {
+        const auto node = static_cast<std::size_t>(nodeIndex);
+        if (scene.nodes[node].mesh < 0) continue;
+        const auto meshIndex = static_cast<std::size_t>(scene.nodes[node].mesh);
+        const auto& primitives = scene.meshes[meshIndex].primitives;
+        for (std::size_t i = 0; i < primitives.size(); ++i)
+            appendDraw(scene, nodeIndex, primitives[i], sources[meshIndex][i], closed[meshIndex],
+                       enclosing[node], skinFirstMatrix, nodeFirstWeight, arrays);
     }
     return arrays;
 }

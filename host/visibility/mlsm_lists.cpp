@@ -21,7 +21,8 @@ shared::RasterView rasterView(const LightView& view, Faces faces) {
     raster.requireFlags = DRAW_CASTS;
     if (faces == Faces::automatic) {
         raster.cullFront = DRAW_CLOSED;
-        raster.keepBoth = DRAW_BLEND | DRAW_MASK;
+        // Between the faces of a closed mesh only the front hides the light
+        raster.keepBoth = DRAW_BLEND | DRAW_MASK | DRAW_ENCLOSES;
     }
     if (faces == Faces::back) raster.cullFront = DRAW_ANY;
     if (faces == Faces::front) raster.cullBack = DRAW_ANY;

@@ -32,8 +32,8 @@ struct MlsmSettings : MapSettings, BiasSettings {
         pixelRows(row);
         row.choice(
             "faces", faces, {"auto", "back", "front", "all"},
-            "faces that are kept; auto: back faces of edge-closed opaque meshes, both of all "
-            "others");
+            "faces that are kept; auto: back faces of edge-closed opaque meshes with nothing "
+            "inside, both of all others");
         row.choice("build", build, {"array", "list"},
                    "of the base level: counted, then filled, or by linked lists; never changes the "
                    "image",

@@ -28,9 +28,9 @@ const std::vector<TechniqueEntry>& techniques() {
          "view-warped soft shadows: casters become points once, points become a depth map per "
          "sample",
          "[VWSS] 3",
-         "bands of self-shadowing, slight bloat of shadows, leaks at grazing angles; few large "
-         "triangles make "
-         "many points; partial opacity blocks a share of the samples",
+         "bands of self-shadowing, slight bloat of shadows, leaks at grazing angles; holes in "
+         "slanting faces (density=2 closes them); few large triangles make many points; partial "
+         "opacity blocks a share of the samples",
          describeSettings<VwssSettings>, checkSettings<VwssSettings>, Vwss::plannedBytes,
          make<Vwss>},
         {"mvr", "multi-view rasterisation: every triangle into a depth map per sample",
@@ -63,7 +63,8 @@ const std::vector<TechniqueEntry>& techniques() {
          "[MLSM]",
          "what only other points of the light see casts no shadow; penumbrae that overlap add up "
          "(accumulateLookup=multiply where occluders lie behind one another); thin parts between "
-         "texels",
+         "texels; of closed meshes back faces cast the shadow, whose penumbra is that of their "
+         "depth; single lit pixels at the foot of walls",
          describeSettings<MlsmSettings>, checkSettings<MlsmSettings>, Mlsm::plannedBytes,
          make<Mlsm>},
         {"raster4d",

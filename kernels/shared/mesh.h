@@ -23,6 +23,7 @@ SHARED_BEGIN
 #define DRAW_UNLIT 128u
 #define DRAW_COLOURS 256u      // vertex colours are present
 #define DRAW_TEXTURED 512u     // the material reads a texture
+#define DRAW_ENCLOSES 1024u    // closed, and something lies inside: both faces matter to it
 #define DRAW_ANY 0x80000000u   // set in every draw
 
 // Flags of a material

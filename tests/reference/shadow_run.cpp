@@ -7,7 +7,7 @@
 #include "host/gbuffer/gbuffer.h"
 #include "kernels/shared/gbuffer.h"
 #include "kernels/shared/multi_view.h"
-#include "tests/support/fixtures.h"
+#include "tests/support/opened_device.h"
 
 namespace penumbra::tests {
 namespace {

@@ -4,23 +4,16 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "kernels/shared/gbuffer.h"
 #include "tests/reference/shadow_run.h"
 #include "tests/support/fixtures.h"
+#include "tests/support/metamorphic.h"
 
 namespace penumbra::tests {
 namespace {
 
 const char* const kAbove = "rect:at=0,6,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=10";
-
-std::vector<std::string> shadowTechniques() {
-    std::vector<std::string> names;
-    for (const auto& entry : visibility::techniques())
-        if (std::string(entry.name) != "none") names.emplace_back(entry.name);
-    return names;
-}
 
 class TechniquesTest : public testing::TestWithParam<std::string> {
   protected:
@@ -135,37 +128,6 @@ TEST_P(TechniquesTest, APointLightGivesTheHardShadowOfRays) {
     ASSERT_GT(tested, 1000U);
     // Along the shadow's edge a texel decides; exponential maps leak where blockers are close
     EXPECT_LE(wrong, tested / (GetParam() == "essm" ? 25 : 50));
-}
-
-TEST_P(TechniquesTest, AMirroredSceneGivesAMirroredImage) {
-    auto plain = setup();
-    plain.samples = "4x4";  // a set that mirrors into itself
-    plain.light = "rect:at=0.8,6,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=10";
-    if (GetParam() == "pcss") plain.settings["pcss.rotate"] = "false";
-    if (GetParam() == "mvss") plain.settings["mvss.maps"] = "256";
-    auto mirrored = plain;
-    mirrored.light = "rect:at=-0.8,6,0;aim=0,0,0;up=0,0,1;size=1x1;radiance=10";
-    auto scene = solids();
-    const auto run = runShadows(scene, plain);
-    for (auto& node : scene.nodes)
-        node.matrix = glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1)) * node.matrix;
-    const auto flipped = runShadows(scene, mirrored);
-    double sum = 0, spread = 0;
-    std::size_t count = 0;
-    for (int y = 0; y < run.height; ++y)
-        for (int x = 0; x < run.width; ++x) {
-            const auto at = static_cast<std::size_t>(y * run.width + x);
-            const auto other = static_cast<std::size_t>(y * run.width + run.width - 1 - x);
-            if (!run.tested(at) || !flipped.tested(other)) continue;
-            sum += std::abs(run.visibility[at] - flipped.visibility[other]);
-            spread += std::abs(run.visibility[at] - run.visibility[other]);
-            ++count;
-        }
-    ASSERT_GT(count, 1000U);
-    // Texels and the samples of mvss do not mirror to the bit; an image that is not mirrored would
-    // differ as much as the picture from its own mirror image
-    EXPECT_LT(sum / static_cast<double>(count), 0.01);
-    EXPECT_GT(spread / static_cast<double>(count), 0.03);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TechniquesTest, testing::ValuesIn(shadowTechniques()),
