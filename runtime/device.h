@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/faults.h"
+
 namespace cl {
 class CommandQueue;
 class Context;
@@ -94,6 +96,12 @@ class Device {
     const MemoryUse& memory() const { return memory_; }
     void accountMemory(std::int64_t bytes);
     ProgramStats& programs() { return programs_; }
+    Faults& faults() { return faults_; }
+
+    /// Remembers what the user should know, such as a cache that cannot be written.
+    void warn(const std::string& warning);
+    /// The warnings since the last call, each text once.
+    std::vector<std::string> takeWarnings();
 
   private:
     struct Handles;
@@ -104,6 +112,8 @@ class Device {
     std::vector<std::shared_ptr<const void>> staged_;
     MemoryUse memory_;
     ProgramStats programs_;
+    Faults faults_;
+    std::vector<std::string> warnings_;
 };
 
 }  // namespace penumbra::runtime

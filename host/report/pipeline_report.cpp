@@ -7,7 +7,7 @@
 
 namespace penumbra {
 
-std::vector<std::pair<std::string, std::string>> Pipeline::header() const {
+std::vector<std::pair<std::string, std::string>> Pipeline::makeHeader() const {
     std::vector<std::pair<std::string, std::string>> entries;
     const auto add = [&](const std::string& key, const std::string& value) {
         entries.emplace_back(key, value);
@@ -77,7 +77,7 @@ std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, 
 
 std::string Pipeline::statsJson() const {
     nlohmann::json settings;
-    for (const auto& [key, value] : header()) settings[key] = value;
+    for (const auto& [key, value] : header_) settings[key] = value;
     const auto& programs = device_->programs();
     return nlohmann::json(
                {{"schema", 1},
