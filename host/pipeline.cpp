@@ -340,9 +340,10 @@ std::vector<bool> Pipeline::testedPixels() const {
     return tested;
 }
 
-void Pipeline::warnOnce(const std::string& warning) {
-    if (std::find(warned_.begin(), warned_.end(), warning) != warned_.end()) return;
-    warned_.push_back(warning);
+void Pipeline::warnOnce(const std::string& warning, const std::string& about) {
+    const auto& key = about.empty() ? warning : about;
+    if (std::find(warned_.begin(), warned_.end(), key) != warned_.end()) return;
+    warned_.push_back(key);
     warnings_.push_back(warning);
 }
 

@@ -81,7 +81,8 @@ class Pipeline {
     std::string frameStats(const std::vector<runtime::StageTime>& stages, int number, double wallMs,
                            int retries);
     std::vector<std::pair<std::string, std::string>> makeHeader() const;
-    void warnOnce(const std::string& warning);
+    /// `about`: the warning without figures that differ from frame to frame.
+    void warnOnce(const std::string& warning, const std::string& about = "");
 
     RenderOptions options_;
     AovChoice aovs_;

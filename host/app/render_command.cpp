@@ -53,8 +53,9 @@ void checkOutput(const RenderArguments& arguments) {
     require(std::filesystem::is_directory(folder), "-o {}: the folder {} cannot be made: {}", path,
             folder, error.message());
     // Found out now, not after the first frame has been rendered
-    require(access(folder.c_str(), W_OK | X_OK) == 0, "-o {}: the folder {} cannot be written: {}",
-            path, folder, std::strerror(errno));
+    const bool writable = access(folder.c_str(), W_OK | X_OK) == 0;
+    require(writable, "-o {}: the folder {} cannot be written: {}", path, folder,
+            std::strerror(errno));
 }
 
 void writeFrame(const std::string& path, const Frame& frame) {

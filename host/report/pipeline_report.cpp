@@ -66,12 +66,15 @@ std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, 
                         "one launch at a time",
                         device_->info().name));
     if (const auto dropped = geometry_->counts().nonFiniteVertices)
-        warnOnce(fmt::format("{} vertices are not finite: their triangles are dropped", dropped));
+        warnOnce(fmt::format("{} vertices are not finite: their triangles are dropped", dropped),
+                 "vertices that are not finite");
     if (counts.nearPoints)
-        warnOnce(fmt::format(
-            "casters lie nearer to a light than its near plane: {} points keep depth 1; set "
-            "near= on --light",
-            counts.nearPoints));
+        warnOnce(
+            fmt::format(
+                "casters lie nearer to a light than its near plane: {} points keep depth 1; set "
+                "near= on --light",
+                counts.nearPoints),
+            "points before the near plane");
     return json.dump();
 }
 

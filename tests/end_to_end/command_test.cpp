@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command as a user runs it: files, exit codes, messages.
+#include "tests/support/command.h"
+
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,30 +20,6 @@
 
 namespace penumbra::tests {
 namespace {
-
-struct Result {
-    int code = -1;
-    std::string output, errors;
-};
-
-std::string readFile(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-Result run(const std::string& arguments) {
-    const std::string errors =
-        temporaryFolder("command-errors-" + std::to_string(getpid())) + "/stderr";
-    const std::string line = std::string(PENUMBRA_COMMAND) + " " + arguments + " 2>" + errors;
-    Result result;
-    std::FILE* pipe = popen(line.c_str(), "r");
-    char text[4096];
-    while (std::fgets(text, sizeof text, pipe)) result.output += text;
-    const int status = pclose(pipe);
-    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    result.errors = readFile(errors);
-    return result;
-}
 
 const std::string kSmall = "render --size 64x36 --light-samples 4 --set vwss.resolution=128 -q ";
 
