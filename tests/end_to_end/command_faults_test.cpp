@@ -87,10 +87,10 @@ TEST(CommandFaultsTest, KilledRunsResumeToTheSameFolder) {
 
 TEST(CommandFaultsTest, AFileTooLargeIsAnErrorThatLeavesNothing) {
     const auto folder = temporaryFolder("too-large");
-    const auto frames = "render -q --size 480x270 --technique none --aov all --frames 0..1 -o ";
+    const auto frames = "render -q --size 960x540 --technique none --aov all --frames 0..1 -o ";
     ASSERT_EQ(run(frames + temporaryFolder("large") + "/a_#.exr").code, 0);  // compiles kernels
     // In blocks of 512 bytes; the driver's own files stay below
-    expectLine(run(frames + folder + "/a_#.exr", "ulimit -f 400;"), 1, "File too large; 0 of 2");
+    expectLine(run(frames + folder + "/a_#.exr", "ulimit -f 3000;"), 1, "File too large; 0 of 2");
     EXPECT_TRUE(fs::is_empty(folder));
 }
 
