@@ -273,6 +273,8 @@ Frame Pipeline::render(int number) try {
 }
 
 Frame Pipeline::renderFrame(int number) {
+    std::optional<runtime::SlowNotice> notice;  // later frames are slow for their own reasons
+    if (!lastFrame_) notice.emplace("preparing kernels for their first use on this device");
     const int window = options_.temporal;
     if (window > 1 && (!lastFrame_ || *lastFrame_ != number - 1)) {
         temporal_->reset();
@@ -283,7 +285,6 @@ Frame Pipeline::renderFrame(int number) {
         device_->profiler().collect();
     }
     const auto start = std::chrono::steady_clock::now();
-    const runtime::SlowNotice notice("preparing kernels for their first use on this device");
     const int retries = renderOnDevice(number, true);
     for (const auto& warning : technique_->warnings()) warnOnce(warning);
     const auto stages = device_->profiler().collect();

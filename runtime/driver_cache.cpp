@@ -67,7 +67,7 @@ std::string replaceDriverCache() {
 }  // namespace
 
 std::string driverCacheFolder() {
-    if (const auto folder = variable("POCL_CACHE_DIR"); !folder.empty()) return folder;
+    if (auto folder = variable("POCL_CACHE_DIR"); !folder.empty()) return folder;
     if (const auto folder = variable("XDG_CACHE_HOME"); !folder.empty())
         return folder + "/pocl/kcache";
     if (const auto folder = variable("HOME"); !folder.empty())
