@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command where the machine fails it: one clear line, its exit code, and nothing lost that was
 // whole. tools/check_resume kills it at random, and many times.
+#include <fmt/format.h>
 #include <sys/mount.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -142,6 +143,26 @@ TEST(CommandFaultsTest, AFolderThatGoesAwayEndsTheSequence) {
         if (!name.ends_with(".png")) continue;
         EXPECT_NE(readFingerprint(folder + "-moved/" + name), "") << name;
     }
+}
+
+TEST(CommandFaultsTest, ADeviceLostInTheMiddleKeepsWhatWasWhole) {
+#ifdef PENUMBRA_LOST_DEVICE
+    const auto folder = temporaryFolder("lost");
+    const auto frames = kSmall + "--frames 0..9 --resume -o " + folder + "/f_#.png";
+    const std::string lost = "LD_PRELOAD=" PENUMBRA_LOST_DEVICE " LOSE_AFTER=";
+    expectLine(run(frames, lost + "1"), 3, "was lost");
+    EXPECT_TRUE(fs::is_empty(folder));
+    const auto result = run(frames, lost + "100");
+    const auto names = filesIn(folder);
+    EXPECT_GT(names.size(), 0U);
+    EXPECT_LT(names.size(), 10U);
+    expectLine(result, 3, fmt::format("{} of 10 frames are whole, --resume", names.size()));
+    for (const auto& name : names) EXPECT_NE(readFingerprint(folder + "/" + name), "") << name;
+    EXPECT_EQ(run(frames).code, 0);
+    EXPECT_EQ(filesIn(folder).size(), 10U);
+#else
+    GTEST_SKIP() << "sanitizers do not allow it";
+#endif
 }
 
 TEST(CommandFaultsTest, WithoutACacheFolderThereIsADeviceAllTheSame) {
