@@ -10,7 +10,7 @@
 namespace penumbra::image {
 namespace {
 
-constexpr int kCompression = 4;  // of zlib: fast enough to be written while a frame renders
+constexpr int kFrameCompression = 4;  // frames are written while others render
 
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -74,7 +74,7 @@ std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int wi
     png_set_IHDR(w.png, w.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
                  8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    png_set_compression_level(w.png, kCompression);
+    if (!fingerprint.empty()) png_set_compression_level(w.png, kFrameCompression);
     png_set_sRGB(w.png, w.info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (!fingerprint.empty()) addText("penumbra.fingerprint", fingerprint, w);
     png_write_info(w.png, w.info);

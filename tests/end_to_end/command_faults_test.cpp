@@ -3,6 +3,7 @@
 // whole. tools/check_resume kills it at random, and many times.
 #include <fmt/format.h>
 #include <sys/mount.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -35,6 +36,31 @@ void expectLine(const Result& result, int code, const std::string& part) {
     EXPECT_EQ(result.code, code) << result.errors;
     EXPECT_NE(result.errors.find(part), std::string::npos) << result.errors;
     EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+}
+
+/// A variable of the command's environment.
+class Variable {
+  public:
+    Variable(const char* name, const std::string& value) : name_(name) {
+        setenv(name, value.c_str(), 1);
+    }
+    ~Variable() { unsetenv(name_); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+  private:
+    const char* name_;
+};
+
+/// Runs the command where no file may have more bytes.
+Result runLimited(const std::string& arguments, rlim_t bytes) {
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit limit{bytes, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    auto result = run(arguments);
+    setrlimit(RLIMIT_FSIZE, &before);
+    return result;
 }
 
 /// Starts the command with these arguments in the background. No shell: its number is the one to
@@ -90,8 +116,8 @@ TEST(CommandFaultsTest, AFileTooLargeIsAnErrorThatLeavesNothing) {
     const auto folder = temporaryFolder("too-large");
     const auto frames = "render -q --size 960x540 --technique none --aov all --frames 0..1 -o ";
     ASSERT_EQ(run(frames + temporaryFolder("large") + "/a_#.exr").code, 0);  // compiles kernels
-    // In blocks of 512 bytes; the driver's own files stay below
-    expectLine(run(frames + folder + "/a_#.exr", "ulimit -f 3000;"), 1, "File too large; 0 of 2");
+    // The driver's own files stay below
+    expectLine(runLimited(frames + folder + "/a_#.exr", 1536 << 10), 1, "File too large; 0 of 2");
     EXPECT_TRUE(fs::is_empty(folder));
 }
 
@@ -149,15 +175,20 @@ TEST(CommandFaultsTest, ADeviceLostInTheMiddleKeepsWhatWasWhole) {
 #ifdef PENUMBRA_LOST_DEVICE
     const auto folder = temporaryFolder("lost");
     const auto frames = kSmall + "--frames 0..9 --resume -o " + folder + "/f_#.png";
-    const std::string lost = "LD_PRELOAD=" PENUMBRA_LOST_DEVICE " LOSE_AFTER=";
-    expectLine(run(frames, lost + "1"), 3, "was lost");
+    {
+        const Variable preload("LD_PRELOAD", PENUMBRA_LOST_DEVICE), after("LOSE_AFTER", "1");
+        expectLine(run(frames), 3, "was lost");
+    }
     EXPECT_TRUE(fs::is_empty(folder));
-    const auto result = run(frames, lost + "100");
-    const auto names = filesIn(folder);
-    EXPECT_GT(names.size(), 0U);
-    EXPECT_LT(names.size(), 10U);
-    expectLine(result, 3, fmt::format("{} of 10 frames are whole, --resume", names.size()));
-    for (const auto& name : names) EXPECT_NE(readFingerprint(folder + "/" + name), "") << name;
+    {
+        const Variable preload("LD_PRELOAD", PENUMBRA_LOST_DEVICE), after("LOSE_AFTER", "100");
+        const auto result = run(frames);
+        const auto names = filesIn(folder);
+        EXPECT_GT(names.size(), 0U);
+        EXPECT_LT(names.size(), 10U);
+        expectLine(result, 3, fmt::format("{} of 10 frames are whole, --resume", names.size()));
+        for (const auto& name : names) EXPECT_NE(readFingerprint(folder + "/" + name), "") << name;
+    }
     EXPECT_EQ(run(frames).code, 0);
     EXPECT_EQ(filesIn(folder).size(), 10U);
 #else
@@ -168,7 +199,8 @@ TEST(CommandFaultsTest, ADeviceLostInTheMiddleKeepsWhatWasWhole) {
 TEST(CommandFaultsTest, WithoutACacheFolderThereIsADeviceAllTheSame) {
     const auto file = temporaryFolder("no-cache") + "/file";
     std::ofstream(file) << "x";
-    const auto result = run("devices --json", "POCL_CACHE_DIR=" + file + "/cache");
+    const Variable cache("POCL_CACHE_DIR", file + "/cache");
+    const auto result = run("devices --json");
     EXPECT_EQ(result.code, 0) << result.errors;
     EXPECT_FALSE(nlohmann::json::parse(result.output)["devices"].empty());
 }

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 
 #include "tests/support/fixtures.h"
 
@@ -16,11 +17,10 @@ std::string readFile(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-Result run(const std::string& arguments, const std::string& before) {
+Result run(const std::string& arguments) {
     const std::string errors =
         temporaryFolder("command-errors-" + std::to_string(getpid())) + "/stderr";
-    const std::string line =
-        before + " " + std::string(PENUMBRA_COMMAND) + " " + arguments + " 2>" + errors;
+    const std::string line = std::string(PENUMBRA_COMMAND) + " " + arguments + " 2>" + errors;
     Result result;
     std::FILE* pipe = popen(line.c_str(), "r");
     char text[4096];

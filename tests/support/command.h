@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The command as a user runs it.
+// The command as a user runs it, through a shell.
 #pragma once
 #include <string>
 
 namespace penumbra::tests {
 
 struct Result {
-    int code = -1;  ///< of the shell: 128 more than its number where a signal ended the command
+    int code = -1;  ///< that of the command; 128 + signal where one ended it
     std::string output, errors;
 };
 
-std::string readFile(const std::string& path);
+Result run(const std::string& arguments);
 
-/// Runs `penumbra ARGUMENTS` in a shell; `before` as "VARIABLE=value" or "ulimit -f 1;".
-Result run(const std::string& arguments, const std::string& before = "");
+std::string readFile(const std::string& path);
 
 }  // namespace penumbra::tests
