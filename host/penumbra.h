@@ -82,7 +82,7 @@ class Renderer {
     Renderer& operator=(Renderer&&) noexcept;
 
     /// Renders frame `number` at number / fps seconds, clamped to the clip. The result depends on
-    /// nothing rendered before.
+    /// nothing rendered before, be it frames or errors.
     Frame render(int number);
     /// Frames of the clip: 0 .. frameCount() - 1; 1 for a still scene.
     int frameCount() const;

@@ -128,8 +128,12 @@ scene::Scene loadScene(const RenderOptions& options) {
 
 Pipeline::Pipeline(const RenderOptions& options) : Pipeline(options, loadScene(options)) {}
 
-Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
-    : options_(options), aovs_(parseAovs(options.aovs)), scene_(std::move(scene)) {
+Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene,
+                   std::unique_ptr<runtime::Device> device)
+    : options_(options),
+      aovs_(parseAovs(options.aovs)),
+      device_(std::move(device)),
+      scene_(std::move(scene)) {
     requireUsage(options.supersample >= 1 && options.supersample <= 8,
                  "--supersample {} is outside of 1 to 8", options.supersample);
     requireUsage(options.fps > 0 && std::isfinite(options.fps),
@@ -180,13 +184,14 @@ Pipeline::Pipeline(const RenderOptions& options, scene::Scene scene)
     exposure_ = exposureOf(options_, irradiance);
     ambient_ = kAmbient * irradiance / kPi;
 
-    device_ = openDevice(options_);
+    if (!device_) device_ = openDevice(options_);
     planScene();
     makePasses();
     for (const auto& light : scene::lightsAt(scene_, pose, bounds_, choice)) checkLight(light);
     plannedBytes_ = planFrame();
     std::string key = scene::sceneDigest(scene_);
-    for (const auto& [name, value] : header()) key += fmt::format("{}={}\n", name, value);
+    header_ = makeHeader();
+    for (const auto& [name, value] : header_) key += fmt::format("{}={}\n", name, value);
     fingerprint_ = runtime::digest(key);
 }
 
@@ -266,7 +271,17 @@ int Pipeline::renderOnDevice(int number, bool keep) {
     return retries;
 }
 
-Frame Pipeline::render(int number) {
+Frame Pipeline::render(int number) try {
+    if (!gbuffer_) makePasses();
+    return renderFrame(number);
+} catch (const std::exception&) {
+    dropPasses();
+    throw;
+}
+
+Frame Pipeline::renderFrame(int number) {
+    std::optional<runtime::SlowNotice> notice;  // later frames are slow for their own reasons
+    if (!lastFrame_) notice.emplace("preparing kernels for their first use on this device");
     const int window = options_.temporal;
     if (window > 1 && (!lastFrame_ || *lastFrame_ != number - 1)) {
         temporal_->reset();
@@ -277,7 +292,6 @@ Frame Pipeline::render(int number) {
         device_->profiler().collect();
     }
     const auto start = std::chrono::steady_clock::now();
-    const runtime::SlowNotice notice("preparing kernels for their first use on this device");
     const int retries = renderOnDevice(number, true);
     for (const auto& warning : technique_->warnings()) warnOnce(warning);
     const auto stages = device_->profiler().collect();
@@ -314,7 +328,7 @@ Frame Pipeline::collect(int number) {
         image::addMasks(planes, lights_[i].name, keptMasks_[i], frame);
     frame.number = number;
     frame.exposure = exposure_;
-    frame.header = header();
+    frame.header = header_;
     frame.fingerprint = fingerprint_;
     return frame;
 }
@@ -334,13 +348,15 @@ std::vector<bool> Pipeline::testedPixels() const {
     return tested;
 }
 
-void Pipeline::warnOnce(const std::string& warning) {
-    if (std::find(warned_.begin(), warned_.end(), warning) != warned_.end()) return;
-    warned_.push_back(warning);
+void Pipeline::warnOnce(const std::string& warning, const std::string& about) {
+    const auto& key = about.empty() ? warning : about;
+    if (std::find(warned_.begin(), warned_.end(), key) != warned_.end()) return;
+    warned_.push_back(key);
     warnings_.push_back(warning);
 }
 
 std::vector<std::string> Pipeline::takeWarnings() {
+    for (const auto& warning : device_->takeWarnings()) warnOnce(warning);
     return std::exchange(warnings_, {});
 }
 

@@ -34,7 +34,9 @@ scene::Scene loadScene(const RenderOptions& options);
 class Pipeline {
   public:
     explicit Pipeline(const RenderOptions& options);
-    Pipeline(const RenderOptions& options, scene::Scene scene);
+    /// `device`: opened as the options say where there is none.
+    Pipeline(const RenderOptions& options, scene::Scene scene,
+             std::unique_ptr<runtime::Device> device = nullptr);
     ~Pipeline();
 
     Frame render(int number);
@@ -54,6 +56,9 @@ class Pipeline {
     double secondsOf(int number) const;
     scene::CameraFrame cameraOf(const scene::Pose& pose) const;
     void makePasses();
+    /// After an error in the middle of a frame: the next one is rendered with passes made anew, as
+    /// lists may be half grown, counters half read, and memory scarce.
+    void dropPasses();
     void checkLight(const scene::AreaLight& light);
     /// Runs the G-buffer at the clip's start until the lists of blended fragments fit (waits), so
     /// that the plan and what follows know their length.
@@ -68,14 +73,16 @@ class Pipeline {
     /// Renders into the device's images; repeats where a list was too short. Returns the
     /// repetitions.
     int renderOnDevice(int number, bool keep);
+    Frame renderFrame(int number);
     void enqueue(const geometry::Mesh& mesh, bool keep);
     bool anyListGrew();
     void keepOutputs(std::size_t light);
     Frame collect(int number);
     std::string frameStats(const std::vector<runtime::StageTime>& stages, int number, double wallMs,
                            int retries);
-    std::vector<std::pair<std::string, std::string>> header() const;
-    void warnOnce(const std::string& warning);
+    std::vector<std::pair<std::string, std::string>> makeHeader() const;
+    /// `about`: the warning without figures that differ from frame to frame.
+    void warnOnce(const std::string& warning, const std::string& about = "");
 
     RenderOptions options_;
     AovChoice aovs_;
@@ -104,6 +111,7 @@ class Pipeline {
     double exposure_ = 1;
     std::uint64_t plannedBytes_ = 0, maskBytes_ = 0;
     glm::dvec3 ambient_{0};
+    std::vector<std::pair<std::string, std::string>> header_;  ///< of all frames
     std::string fingerprint_;
     std::vector<std::string> warnings_, warned_;
     std::optional<int> lastFrame_;  ///< whose history the temporal pass holds

@@ -71,6 +71,19 @@ void Pipeline::makePasses() {
                  options_.technique);
 }
 
+void Pipeline::dropPasses() {
+    device_->profiler().discard();
+    visibility_ = {};
+    madeForRows_ = 0;
+    composite_ = nullptr;
+    temporal_ = nullptr;
+    shade_ = nullptr;
+    technique_ = nullptr;
+    gbuffer_ = nullptr;
+    geometry_ = nullptr;
+    lastFrame_.reset();
+}
+
 void Pipeline::sizeLists() {
     const runtime::SlowNotice notice("preparing kernels for their first use on this device");
     const scene::Pose pose = scene::poseAt(scene_, clips_, 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/buffer.h"
 
-#include "runtime/error.h"
+#include "runtime/call_error.h"
 #include "runtime/opencl.h"
 #include "runtime/profiler.h"
 
@@ -14,28 +14,22 @@ constexpr double kMegabyte = 1024.0 * 1024.0;
                                    std::uint64_t bytes, const std::string& reason) {
     throw Error(
         fmt::format(
-            "out of memory on {}: {} needs {:.1f} MB, {:.1f} MB are in use of {:.1f} MB, the "
-            "largest single allocation is {:.1f} MB ({}); use fewer light samples, a smaller "
+            "out of memory on {}: {} needs {:.1f} MB, {} ({}); use fewer light samples, a smaller "
             "size or resolution, or raise --memory",
             device.info().name, label, static_cast<double>(bytes) / kMegabyte,
-            static_cast<double>(device.memory().current) / kMegabyte,
-            static_cast<double>(device.memoryLimitBytes()) / kMegabyte,
-            static_cast<double>(device.info().maxAllocBytes) / kMegabyte, reason),
+            memoryFigures(device), reason),
         ExitCode::outOfMemory);
 }
 
 template <typename Call>
 void checked(const Memory& memory, const char* what, Call&& call) {
     try {
+        if (memory.device().faults().loss.struck()) throw cl::Error(CL_DEVICE_NOT_AVAILABLE, what);
         call();
     } catch (const cl::Error& error) {
-        const bool memoryError = error.err() == CL_MEM_OBJECT_ALLOCATION_FAILURE ||
-                                 error.err() == CL_OUT_OF_RESOURCES ||
-                                 error.err() == CL_OUT_OF_HOST_MEMORY;
-        if (memoryError) throwOutOfMemory(memory.device(), memory.label(), memory.bytes(), what);
-        throw Error(fmt::format("{} of '{}' ({} bytes) failed on {} with OpenCL error {}", what,
-                                memory.label(), memory.bytes(), memory.device().info().name,
-                                error.err()));
+        throw callError(memory.device(),
+                        fmt::format("{} of '{}' ({} bytes)", what, memory.label(), memory.bytes()),
+                        error.err());
     }
 }
 
@@ -50,6 +44,8 @@ Memory::Memory(Device& device, std::string label, std::uint64_t bytes)
     if (device.memory().current + size > device.memoryLimitBytes())
         throwOutOfMemory(device, label_, size, "the limit is reached");
     try {
+        if (device.faults().allocation.strikes())
+            throw cl::Error(CL_MEM_OBJECT_ALLOCATION_FAILURE, "a test's fault");
         buffer_ = std::make_shared<cl::Buffer>(device.context(), CL_MEM_READ_WRITE, size);
     } catch (const cl::Error& error) {
         throwOutOfMemory(device, label_, size, fmt::format("OpenCL error {}", error.err()));

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <utility>
 
+#include "runtime/call_error.h"
+#include "runtime/driver_cache.h"
 #include "runtime/error.h"
 #include "runtime/opencl.h"
 #include "runtime/profiler.h"
@@ -73,6 +76,7 @@ std::vector<cl::Device> devicesOf(const cl::Platform& platform) {
 std::vector<cl::Platform> platforms() {
     // One compiled kernel per entry instead of one per launch shape; read by PoCL alone
     setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
+    prepareDriverCache();
     std::vector<cl::Platform> all;
     try {
         cl::Platform::get(&all);
@@ -212,6 +216,8 @@ Device::Device(const DeviceInfo& info, const DeviceOptions& options)
                                   info.name, error.what(), error.err()));
     }
     profiler_ = std::make_unique<Profiler>(*this, options.profiling);
+    if (info.platform == "Portable Computing Language" && !prepareDriverCache().empty())
+        warn(prepareDriverCache());
 }
 
 Device::~Device() {
@@ -234,16 +240,23 @@ cl::Device& Device::handle() const {
 
 void Device::finish() {
     try {
+        if (faults_.loss.struck()) throw cl::Error(CL_DEVICE_NOT_AVAILABLE, "clFinish");
         handles_->queue.finish();
     } catch (const cl::Error& error) {
-        throw Error(fmt::format("device {} was lost: {} failed with OpenCL error {}", info_.name,
-                                error.what(), error.err()));
+        // Nothing is asked for here that could be refused, but memory on first use
+        if (error.err() == CL_MEM_OBJECT_ALLOCATION_FAILURE)
+            throw callError(*this, "running kernels", error.err());
+        throw lostError(*this, error.what(), error.err());
     }
     staged_.clear();
 }
 
 void Device::flush() {
-    handles_->queue.flush();
+    try {
+        handles_->queue.flush();
+    } catch (const cl::Error& error) {
+        throw lostError(*this, error.what(), error.err());
+    }
 }
 
 void Device::keepUntilFinish(std::shared_ptr<const void> data) {
@@ -253,6 +266,15 @@ void Device::keepUntilFinish(std::shared_ptr<const void> data) {
 std::uint64_t Device::memoryLimitBytes() const {
     return options_.memoryLimitBytes ? std::min(options_.memoryLimitBytes, info_.globalBytes)
                                      : info_.globalBytes;
+}
+
+void Device::warn(const std::string& warning) {
+    if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
+        warnings_.push_back(warning);
+}
+
+std::vector<std::string> Device::takeWarnings() {
+    return std::exchange(warnings_, {});
 }
 
 void Device::accountMemory(std::int64_t bytes) {

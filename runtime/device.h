@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/faults.h"
+
 namespace cl {
 class CommandQueue;
 class Context;
@@ -98,6 +100,12 @@ class Device {
     ProgramStats& programs() { return programs_; }
     /// Programs made so far, by name and options: passes that share one build it once.
     std::map<std::string, std::shared_ptr<const Program>>& madePrograms() { return madePrograms_; }
+    Faults& faults() { return faults_; }
+
+    /// Remembers what the user should know, such as a cache that cannot be written.
+    void warn(const std::string& warning);
+    /// The warnings since the last call, each text once.
+    std::vector<std::string> takeWarnings();
 
   private:
     struct Handles;
@@ -109,6 +117,8 @@ class Device {
     MemoryUse memory_;
     ProgramStats programs_;
     std::map<std::string, std::shared_ptr<const Program>> madePrograms_;
+    Faults faults_;
+    std::vector<std::string> warnings_;
 };
 
 }  // namespace penumbra::runtime

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/kernel.h"
 
-#include "runtime/error.h"
+#include "runtime/call_error.h"
 #include "runtime/opencl.h"
 #include "runtime/profiler.h"
 
@@ -48,7 +48,12 @@ void KernelBase::setBytes(unsigned index, std::size_t bytes, const void* value) 
 
 void KernelBase::setMemory(unsigned index, const Memory& memory) {
     require(memory.allocated(), "kernel {}: parameter {} has no memory", name_, index);
-    kernel_->setArg(index, memory.handle());
+    try {
+        kernel_->setArg(index, memory.handle());
+    } catch (const cl::Error& error) {
+        throw callError(*device_, fmt::format("parameter {} of kernel {}", index, name_),
+                        error.err());
+    }
 }
 
 void KernelBase::enqueue(Range items, Range group) {
@@ -58,16 +63,16 @@ void KernelBase::enqueue(Range items, Range group) {
     const cl::NDRange local(group.x, group.y, group.z);
     Profiler& profiler = device_->profiler();
     try {
+        if (device_->faults().loss.strikes())
+            throw cl::Error(CL_DEVICE_NOT_AVAILABLE, "a test's fault");
         device_->queue().enqueueNDRangeKernel(*kernel_, cl::NullRange, global, local, nullptr,
                                               profiler.newEvent());
     } catch (const cl::Error& error) {
-        throw Error(
-            fmt::format("kernel {} over {} x {} x {} items in groups of {} x {} x {} does not "
-                        "start on {} (OpenCL error {})",
-                        name_, items.x, items.y, items.z, group.x, group.y, group.z,
-                        device_->info().name, error.err()),
-            error.err() == CL_MEM_OBJECT_ALLOCATION_FAILURE ? ExitCode::outOfMemory
-                                                            : ExitCode::failed);
+        throw callError(
+            *device_,
+            fmt::format("the start of kernel {} over {} x {} x {} items in groups of {} x {} x {}",
+                        name_, items.x, items.y, items.z, group.x, group.y, group.z),
+            error.err());
     }
     profiler.launched();
 }

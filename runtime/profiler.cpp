@@ -70,6 +70,10 @@ void Profiler::launched() {
     timestampsWork_ = read_(launch.event).endNs > 0;
 }
 
+void Profiler::discard() {
+    launches_.clear();
+}
+
 std::vector<StageTime> Profiler::collect() {
     device_->finish();
     std::vector<StageTime> stages;

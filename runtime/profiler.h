@@ -54,6 +54,8 @@ class Profiler {
     /// run one by one; `timestampsWork()` tells.
     std::vector<StageTime> collect();
     bool timestampsWork() const { return timestampsWork_; }
+    /// Forgets what was launched since the last collect(), without waiting.
+    void discard();
 
   private:
     struct Launch;

@@ -3,20 +3,19 @@
 // digest is checked before the driver sees the binary, since some crash on a damaged one.
 #include "runtime/program.h"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "runtime/crash_notice.h"
 #include "runtime/digest.h"
 #include "runtime/error.h"
 #include "runtime/opencl.h"
 #include "runtime/slow_notice.h"
+#include "runtime/whole_file.h"
 
 namespace penumbra::runtime {
 namespace {
@@ -53,7 +52,8 @@ Program::Program(Device& device, const std::string& name, const std::vector<std:
     const char* source = programSource(name);
     require(source != nullptr, "no embedded program '{}'", name);
     const auto start = std::chrono::steady_clock::now();
-    const auto options = optionsFor(device.info(), defines);
+    auto options = optionsFor(device.info(), defines);
+    for (const auto& define : device.faults().defines[name]) options += " -D" + define;
     auto& made = device.madePrograms()[name + options];
     if (made) {
         program_ = made->program_;
@@ -74,6 +74,7 @@ Program::Program(Device& device, const std::string& name, const std::vector<std:
         ++device.programs().built;
         if (!path.empty()) save(path);
     }
+    keepAnnouncingCrashes();
     const auto elapsed = std::chrono::steady_clock::now() - start;
     device.programs().ms += std::chrono::duration<double, std::milli>(elapsed).count();
     made = std::make_shared<const Program>(*this);
@@ -87,8 +88,10 @@ void Program::build(const std::string& source, const std::string& options) {
         std::string log;
         if (program_) log = program_->getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_->handle());
         throw Error(
-            fmt::format("program '{}' does not build on {} with '{}' (OpenCL error {}):\n{}", name_,
-                        device_->info().name, options, error.err(), log));
+            fmt::format("program '{}' does not build on {} with '{}' (OpenCL error {}); choose "
+                        "another device with --device or update its driver, which says:\n{}",
+                        name_, device_->info().name, options, error.err(), log),
+            ExitCode::noDevice);
     }
 }
 
@@ -121,9 +124,9 @@ bool Program::load(const std::string& path) try {
     std::stringstream rest;
     rest << file.rdbuf();
     const std::string body = rest.str();
-    if (magic != kMagic || sum != digest(body)) return false;
+    require(magic == kMagic, "it is of another version");
     const auto split = body.find('\n');
-    if (split == std::string::npos) return false;
+    require(sum == digest(body) && split != std::string::npos, "it is damaged");
     signatures_ = nlohmann::json::parse(body.substr(0, split)).get<decltype(signatures_)>();
     const std::vector<unsigned char> binary(body.begin() + static_cast<std::ptrdiff_t>(split) + 1,
                                             body.end());
@@ -132,9 +135,10 @@ bool Program::load(const std::string& path) try {
                                              cl::Program::Binaries{binary});
     program_->build({device_->handle()});
     return true;
-} catch (const std::exception&) {
+} catch (const std::exception& error) {
+    device_->warn(fmt::format("{}: the cached program is compiled anew: {}", path, error.what()));
     signatures_.clear();
-    return false;  // damaged or refused by the driver: built anew
+    return false;
 }
 
 void Program::save(const std::string& path) const try {
@@ -142,19 +146,19 @@ void Program::save(const std::string& path) const try {
     if (binaries.empty() || binaries[0].empty()) return;
     std::string body = nlohmann::json(signatures_).dump() + "\n";
     body.append(binaries[0].begin(), binaries[0].end());
-    std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-    const auto temporary = fmt::format("{}.{}.tmp", path, getpid());
-    {
-        std::ofstream file(temporary, std::ios::binary);
-        file << kMagic << '\n' << digest(body) << '\n' << body;
-        if (!file.flush()) {
-            std::filesystem::remove(temporary);
-            return;
-        }
-    }
-    std::filesystem::rename(temporary, path);
-} catch (const std::exception& error) {
-    std::cerr << fmt::format("penumbra: the program cache is not written: {}\n", error.what());
+    const std::string text = fmt::format("{}\n{}\n", kMagic, digest(body)) + body;
+    const std::filesystem::path entry(path);
+    std::filesystem::create_directories(entry.parent_path());
+    removeAbandoned(entry.parent_path().string(), {entry.filename().string()});
+    WholeFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+} catch (const std::exception&) {
+    // Once for all programs: each would fail for the same reason
+    device_->warn(
+        fmt::format("programs are compiled at every start, as the cache {} cannot be "
+                    "written; choose another folder with XDG_CACHE_HOME, or --no-cache",
+                    cacheFolder()));
 }
 
 }  // namespace penumbra::runtime

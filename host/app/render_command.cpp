@@ -4,19 +4,21 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <future>
-#include <map>
-#include <nlohmann/json.hpp>
+#include <set>
 
 #include "host/app/commands.h"
 #include "host/app/frame_list.h"
+#include "host/app/frame_stats.h"
 #include "runtime/error.h"
 #include "runtime/slow_notice.h"
+#include "runtime/whole_file.h"
 
 namespace penumbra::app {
 namespace {
@@ -33,18 +35,27 @@ bool endsWith(const std::string& text, const std::string& end) {
            text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+std::string folderOf(const std::string& path) {
+    const auto folder = std::filesystem::path(path).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
 void checkOutput(const RenderArguments& arguments) {
     const auto& path = arguments.output;
     requireUsage(endsWith(path, ".exr") || endsWith(path, ".png"),
                  "-o {} ends in neither .exr nor .png; choose one of them", path);
     requireUsage(arguments.options.aovs.empty() || endsWith(path, ".exr"),
                  "--aov needs an EXR file; -o {} is a PNG", path);
-    const auto folder = std::filesystem::path(path).parent_path();
-    if (folder.empty()) return;
+    require(!std::filesystem::is_directory(path), "-o {} is a folder; name a file in it", path);
+    const auto folder = folderOf(path);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     require(std::filesystem::is_directory(folder), "-o {}: the folder {} cannot be made: {}", path,
-            folder.string(), error.message());
+            folder, error.message());
+    // Found out now, not after the first frame has been rendered
+    const bool writable = access(folder.c_str(), W_OK | X_OK) == 0;
+    require(writable, "-o {}: the folder {} cannot be written: {}", path, folder,
+            std::strerror(errno));
 }
 
 void writeFrame(const std::string& path, const Frame& frame) {
@@ -77,11 +88,15 @@ class Progress {
     }
     void skipped(const std::string& path) {
         --total_;
+        ++skipped_;
         if (!quiet_ && !terminal_) fmt::print(stderr, "{} is whole: skipped\n", path);
     }
 
+    /// While nothing is being written.
+    std::size_t wholeFrames() const { return done_ + skipped_; }
+
   private:
-    std::size_t total_, done_ = 0;
+    std::size_t total_, done_ = 0, skipped_ = 0;
     bool quiet_, terminal_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
@@ -98,75 +113,35 @@ bool isWhole(const std::string& path, const std::string& fingerprint,
     return isWritten("depth-maps", depthMapsPath(path)) && isWritten("mask", masksPath(path));
 }
 
-void writeStats(const std::string& path, const Renderer& renderer, const nlohmann::json& frames) {
-    auto json = nlohmann::json::parse(renderer.statsJson());
-    json["frames"] = frames;
-    std::ofstream file(path);
-    file << json.dump(2) << '\n';
-    require(static_cast<bool>(file.flush()), "--stats {}: cannot be written", path);
-}
-
-/// Median device time of each stage over the frames, as a table.
-void printStages(const nlohmann::json& frames) {
-    std::vector<std::string> names;
-    std::map<std::string, std::vector<double>> times;
-    std::vector<double> walls;
-    for (const auto& frame : frames) {
-        walls.push_back(frame["wallMs"]);
-        for (const auto& stage : frame["stages"]) {
-            const std::string name = stage["name"];
-            if (!times.contains(name)) names.push_back(name);
-            times[name].push_back(stage["deviceMs"]);
-        }
-    }
-    const auto median = [](std::vector<double>& values) {
-        std::nth_element(values.begin(),
-                         values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                         values.end());
-        return values[values.size() / 2];
-    };
-    fmt::print(stderr, "| stage | ms (median of {} frames) |\n|---|---|\n", frames.size());
-    for (const auto& name : names)
-        fmt::print(stderr, "| {} | {:.1f} |\n", name, median(times[name]));
-    if (!walls.empty()) fmt::print(stderr, "| whole frame, wall | {:.1f} |\n", median(walls));
-}
-
 void printWarnings(Renderer& renderer, bool quiet) {
     for (const auto& warning : renderer.takeWarnings())
         if (!quiet) fmt::print(stderr, "penumbra: warning: {}\n", warning);
 }
 
-}  // namespace
+/// Names of the files of a sequence, without their folder.
+std::set<std::string> fileNames(const RenderArguments& arguments, const std::vector<int>& frames) {
+    std::set<std::string> names;
+    for (const int number : frames) {
+        const auto path = framePath(arguments.output, number);
+        for (const auto& file : {path, depthMapsPath(path), masksPath(path)})
+            names.insert(std::filesystem::path(file).filename().string());
+    }
+    return names;
+}
 
-int runRender(const RenderArguments& arguments) {
-    checkOutput(arguments);
-    if (!arguments.stats.empty())
-        require(static_cast<bool>(std::ofstream(arguments.stats, std::ios::app)),
-                "--stats {}: cannot be written", arguments.stats);
-    if (arguments.quiet) runtime::SlowNotice::silence();
-    RenderOptions options = arguments.options;
-    options.profile = !arguments.stats.empty() || arguments.verbose;
-    Renderer renderer(options);
-    const auto frames = parseFrames(arguments.frames, renderer.frameCount());
-    requireUsage(frames.size() == 1 || hasFrameNumber(arguments.output),
-                 "--frames {} are {} frames and -o {} names one file; put #### into the name",
-                 arguments.frames, frames.size(), arguments.output);
-    printWarnings(renderer, arguments.quiet);
-    if (arguments.verbose) fmt::print(stderr, "penumbra: device {}\n", renderer.deviceName());
-    std::signal(SIGINT, onInterrupt);
-
-    nlohmann::json stats = nlohmann::json::array();
-    Progress progress(frames.size(), arguments.quiet);
+/// Renders and writes; what is being written when an error occurs is still completed.
+void renderFrames(const RenderArguments& arguments, const std::vector<int>& frames,
+                  Renderer& renderer, FrameStats& stats, Progress& progress) {
     std::future<void> writing;
     for (const int number : frames) {
         if (interrupts > 0) break;
         const auto path = framePath(arguments.output, number);
-        if (arguments.resume && isWhole(path, renderer.fingerprint(), options)) {
+        if (arguments.resume && isWhole(path, renderer.fingerprint(), arguments.options)) {
             progress.skipped(path);
             continue;
         }
         Frame frame = renderer.render(number);
-        stats.push_back(nlohmann::json::parse(frame.statsJson));
+        stats.add(frame.statsJson);
         printWarnings(renderer, arguments.quiet);
         if (writing.valid()) writing.get();
         writing = std::async(std::launch::async, [path, &progress, frame = std::move(frame)] {
@@ -175,8 +150,36 @@ int runRender(const RenderArguments& arguments) {
         });
     }
     if (writing.valid()) writing.get();
-    if (!arguments.stats.empty()) writeStats(arguments.stats, renderer, stats);
-    if (arguments.verbose && !stats.empty()) printStages(stats);
+}
+
+}  // namespace
+
+int runRender(const RenderArguments& arguments) {
+    checkOutput(arguments);
+    FrameStats stats(arguments.stats, arguments.verbose);
+    if (arguments.quiet) runtime::SlowNotice::silence();
+    RenderOptions options = arguments.options;
+    options.profile = !arguments.stats.empty() || arguments.verbose;
+    Renderer renderer(options);
+    const auto frames = parseFrames(arguments.frames, renderer.frameCount());
+    requireUsage(frames.size() == 1 || hasFrameNumber(arguments.output),
+                 "--frames {} are {} frames and -o {} names one file; put #### into the name",
+                 arguments.frames, frames.size(), arguments.output);
+    runtime::removeAbandoned(folderOf(arguments.output), fileNames(arguments, frames));
+    printWarnings(renderer, arguments.quiet);
+    if (arguments.verbose) fmt::print(stderr, "penumbra: device {}\n", renderer.deviceName());
+    std::signal(SIGINT, onInterrupt);
+
+    Progress progress(frames.size(), arguments.quiet);
+    try {
+        renderFrames(arguments, frames, renderer, stats, progress);
+    } catch (const Error& error) {
+        if (frames.size() == 1) throw;
+        throw Error(fmt::format("{}; {} of {} frames are whole, --resume renders the rest",
+                                error.what(), progress.wholeFrames(), frames.size()),
+                    error.code());
+    }
+    stats.finish(renderer.statsJson());
     if (interrupts > 0) {
         fmt::print(stderr,
                    "penumbra: interrupted; finished frames are whole, --resume renders the rest\n");

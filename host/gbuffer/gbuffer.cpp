@@ -41,10 +41,7 @@ GBufferPass::GBufferPass(const runtime::Program& frame, int width, int height, b
                  "--size {}x{} is outside of 1x1 to {}x{} pixels", width, height, RASTER_MAX_SIZE,
                  RASTER_MAX_SIZE);
     auto& device = *device_;
-    if (allowAtomics64 && device.info().atomics64) {
-        const runtime::Program atomic64(device, "atomic64");
-        wide_ = std::make_unique<Kernels<Buffer<std::uint32_t>>>(atomic64, "gbuffer_raster64");
-    }
+    if (allowAtomics64 && device.info().atomics64) makeWide();
     const auto pixels = static_cast<std::uint64_t>(paddedPixels(width, height));
     depthBits_ = Buffer<std::uint32_t>(device, "depth bits", wide_ ? 1 : pixels);
     visibility_ = Buffer<std::uint32_t>(device, "visibility buffer", wide_ ? 2 * pixels : pixels);
@@ -52,6 +49,17 @@ GBufferPass::GBufferPass(const runtime::Program& frame, int width, int height, b
     gbuffer_.height = height;
     fitRows();
     gbuffer_.planes = Buffer<float>(device, "G-buffer", runtime::Shape{1, GB_PLANES, pixels});
+}
+
+/// Leaves wide_ null where the driver lists 64-bit atomics and does not build them.
+void GBufferPass::makeWide() try {
+    const runtime::Program atomic64(*device_, "atomic64");
+    wide_ = std::make_unique<Kernels<Buffer<std::uint32_t>>>(atomic64, "gbuffer_raster64");
+} catch (const Error& error) {
+    if (error.code() != ExitCode::noDevice) throw;
+    const std::string text = error.what();
+    device_->warn(fmt::format("what the camera sees is rasterised in two passes: {}",
+                              text.substr(0, text.find('\n'))));
 }
 
 /// Leaves the planes unallocated where the number of rows has changed.

@@ -43,6 +43,7 @@ class GBufferPass {
     template <typename... Extra>
     using Kernels = RasterKernels<Buffer<shared::Material>, Buffer<float>, Buffer<std::uint32_t>,
                                   Buffer<std::uint32_t>, Extra...>;
+    void makeWide();
     void rasterise(const shared::RasterView& view, const Mesh& mesh);
     void fitRows();
 

@@ -5,8 +5,11 @@
 
 namespace penumbra::gbuffer {
 
+constexpr std::uint64_t kFirstCapacity = 1 << 14;
+
 TileList::TileList(runtime::Device& device)
-    : device_(&device), tiles_(device, "raster tiles", 1 << 14) {}
+    : device_(&device),
+      tiles_(device, "raster tiles", std::min(kFirstCapacity, device.faults().firstCapacity)) {}
 
 void TileList::clear() {
     if (used_ == counts_.size()) counts_.emplace_back(*device_, "tile count", 1);

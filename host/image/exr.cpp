@@ -2,6 +2,7 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
@@ -14,6 +15,7 @@
 #include "host/image/image_file.h"
 #include "runtime/error.h"
 #include "runtime/one_line.h"
+#include "runtime/whole_file.h"
 
 namespace penumbra::image {
 namespace {
@@ -61,15 +63,36 @@ void addChannels(const std::vector<Channel>& channels, int width, Imf::Header& h
     }
 }
 
+/// What OpenEXR writes to. Its OutputFile keeps errors of its last writes to itself.
+class Stream : public Imf::OStream {
+  public:
+    explicit Stream(runtime::WholeFile& file) : OStream(file.path().c_str()), file_(&file) {}
+    void write(const char bytes[], int count) override {
+        file_->write(bytes, static_cast<std::size_t>(count));
+    }
+    std::uint64_t tellp() override { return file_->position(); }
+    void seekp(std::uint64_t position) override { file_->seek(position); }
+
+  private:
+    runtime::WholeFile* file_;
+};
+
 void writeFile(const std::string& path, const Imf::Header& header, const Planes& planes,
                int height) {
-    Imf::OutputFile file(path.c_str(), header);
-    file.setFrameBuffer(planes.buffer);
-    file.writePixels(height);
+    runtime::WholeFile whole(path);
+    try {
+        Stream stream(whole);
+        Imf::OutputFile file(stream, header);
+        file.setFrameBuffer(planes.buffer);
+        file.writePixels(height);
+    } catch (const std::exception& error) {
+        whole.check();  // names the reason in one line, without OpenEXR's words around it
+        throw Error(fmt::format("{}: cannot be written: {}", path, error.what()));
+    }
+    whole.commit();
 }
 
-void writeFrame(const std::string& path, const void* context) {
-    const auto& frame = *static_cast<const Frame*>(context);
+void writeFrame(const std::string& path, const Frame& frame) {
     Imf::Header header(frame.width, frame.height);
     addHeader(frame, header);
     Planes planes;
@@ -79,8 +102,7 @@ void writeFrame(const std::string& path, const void* context) {
     writeFile(path, header, planes, frame.height);
 }
 
-void writeDepthMaps(const std::string& path, const void* context) {
-    const auto& frame = *static_cast<const Frame*>(context);
+void writeDepthMaps(const std::string& path, const Frame& frame) {
     Imf::Header header(frame.depthMapSize, frame.depthMapSize);
     addHeader(frame, header);
     Planes planes;
@@ -88,8 +110,7 @@ void writeDepthMaps(const std::string& path, const void* context) {
     writeFile(path, header, planes, frame.depthMapSize);
 }
 
-void writeMasks(const std::string& path, const void* context) {
-    const auto& frame = *static_cast<const Frame*>(context);
+void writeMasks(const std::string& path, const Frame& frame) {
     Imf::Header header(frame.maskWidth, frame.maskHeight);
     addHeader(frame, header);
     for (const auto& [light, cells] : frame.maskCells)
@@ -120,9 +141,10 @@ void checkAttributes(const std::string& path) {
 }  // namespace
 
 void writeExrFile(const std::string& path, const Frame& frame) {
-    writeWhole(path, &frame, writeFrame);
-    if (!frame.depthMaps.empty()) writeWhole(depthMapsPath(path), &frame, writeDepthMaps);
-    if (!frame.masks.empty()) writeWhole(masksPath(path), &frame, writeMasks);
+    // The frame itself comes last: where it is whole, so is what lies beside it
+    if (!frame.depthMaps.empty()) writeDepthMaps(depthMapsPath(path), frame);
+    if (!frame.masks.empty()) writeMasks(masksPath(path), frame);
+    writeFrame(path, frame);
 }
 
 LoadedImage readExrFile(const std::string& path) try {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "host/image/image_file.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 
+#include "host/image/tone_map.h"
 #include "runtime/error.h"
+#include "runtime/whole_file.h"
 
 namespace penumbra::image {
 
@@ -46,19 +46,6 @@ LoadedImage readImage(const std::string& path) {
                             extension));
 }
 
-void writeWhole(const std::string& path, const void* context,
-                void (*write)(const std::string& temporary, const void* context)) {
-    const std::string temporary = fmt::format("{}.{}.tmp", path, getpid());
-    try {
-        write(temporary, context);
-        std::filesystem::rename(temporary, path);
-    } catch (const std::exception& error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw Error(fmt::format("{}: cannot be written: {}", path, error.what()));
-    }
-}
-
 }  // namespace penumbra::image
 
 namespace penumbra {
@@ -78,9 +65,11 @@ std::string masksPath(const std::string& framePath) {
 }
 
 void writePng(const std::string& path, const Frame& frame) {
-    image::writeWhole(path, &frame, [](const std::string& temporary, const void* context) {
-        image::writePngFile(temporary, *static_cast<const Frame*>(context));
-    });
+    const auto bytes =
+        image::encodePng(image::toneMap(frame), frame.width, frame.height, frame.fingerprint);
+    runtime::WholeFile file(path);
+    file.write(bytes.data(), bytes.size());
+    file.commit();
 }
 
 std::string readFingerprint(const std::string& path) try {

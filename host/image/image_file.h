@@ -35,16 +35,11 @@ struct LoadedImage {
 /// Reads .exr (all channels) or .png (R G B A as stored, 0 to 1). Throws Error naming the file.
 LoadedImage readImage(const std::string& path);
 
-/// Calls write(temporary path) and renames the result to `path`, so that no partial file bears its
-/// name. Throws Error naming path and reason; removes the temporary file.
-void writeWhole(const std::string& path, const void* context,
-                void (*write)(const std::string& temporary, const void* context));
-
-/// A PNG file of sRGB bytes [height, width, 3] in memory.
-std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int width, int height);
+/// A PNG file of sRGB bytes [height, width, 3] in memory; a fingerprint goes into a text chunk.
+std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int width, int height,
+                                    const std::string& fingerprint = "");
 
 void writeExrFile(const std::string& path, const Frame& frame);
-void writePngFile(const std::string& path, const Frame& frame);
 LoadedImage readExrFile(const std::string& path);
 LoadedImage readPngFile(const std::string& path);
 

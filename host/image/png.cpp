@@ -9,12 +9,13 @@
 #include <utility>
 
 #include "host/image/image_file.h"
-#include "host/image/tone_map.h"
 #include "runtime/error.h"
 #include "runtime/one_line.h"
 
 namespace penumbra::image {
 namespace {
+
+constexpr int kFrameCompression = 4;  // frames are written while others render
 
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -115,34 +116,19 @@ PngPixels decode(const Next& next) {
     return std::move(decoding.pixels);
 }
 
-}  // namespace
-
-void writePngFile(const std::string& path, const Frame& frame) {
-    const auto bytes = toneMap(frame);
-    const File file = openFile(path, "wb");
-    Writer w;
-    png_init_io(w.png, file.get());
-    png_set_IHDR(w.png, w.info, static_cast<png_uint_32>(frame.width),
-                 static_cast<png_uint_32>(frame.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_compression_level(w.png, 4);
-    png_set_sRGB(w.png, w.info, PNG_sRGB_INTENT_PERCEPTUAL);
-    std::string key = "penumbra.fingerprint", value = frame.fingerprint;
+void addText(std::string key, std::string value, Writer& w) {
     png_text text{};
     text.compression = PNG_TEXT_COMPRESSION_NONE;
     text.key = key.data();
     text.text = value.data();
     text.text_length = value.size();
     png_set_text(w.png, w.info, &text, 1);
-    png_write_info(w.png, w.info);
-    for (int y = 0; y < frame.height; ++y)
-        png_write_row(w.png, bytes.data() + 3 * static_cast<std::size_t>(y) *
-                                                static_cast<std::size_t>(frame.width));
-    png_write_end(w.png, nullptr);
-    require(std::fflush(file.get()) == 0, "{}: the disk is full or the file was closed", path);
 }
 
-std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int width, int height) {
+}  // namespace
+
+std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int width, int height,
+                                    const std::string& fingerprint) {
     std::vector<std::uint8_t> bytes;
     Writer w;
     png_set_write_fn(
@@ -155,7 +141,9 @@ std::vector<std::uint8_t> encodePng(const std::vector<std::uint8_t>& rgb, int wi
     png_set_IHDR(w.png, w.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
                  8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
+    if (!fingerprint.empty()) png_set_compression_level(w.png, kFrameCompression);
     png_set_sRGB(w.png, w.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (!fingerprint.empty()) addText("penumbra.fingerprint", fingerprint, w);
     png_write_info(w.png, w.info);
     for (int y = 0; y < height; ++y)
         png_write_row(

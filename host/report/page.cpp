@@ -2,10 +2,10 @@
 // The report's page, from top to bottom.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "host/report/page_parts.h"
 #include "runtime/error.h"
+#include "runtime/whole_file.h"
 
 namespace penumbra::report {
 namespace {
@@ -295,9 +295,9 @@ std::string details(const Comparison& c) {
 }
 
 void writeText(const std::filesystem::path& path, const std::string& text) {
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    require(static_cast<bool>(file.flush()), "{}: cannot be written", path.string());
+    runtime::WholeFile file(path.string());
+    file.write(text.data(), text.size());
+    file.commit();
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace penumbra {
 
-std::vector<std::pair<std::string, std::string>> Pipeline::header() const {
+std::vector<std::pair<std::string, std::string>> Pipeline::makeHeader() const {
     std::vector<std::pair<std::string, std::string>> entries;
     const auto add = [&](const std::string& key, const std::string& value) {
         entries.emplace_back(key, value);
@@ -66,19 +66,23 @@ std::string Pipeline::frameStats(const std::vector<runtime::StageTime>& stages, 
                         "one launch at a time",
                         device_->info().name));
     if (const auto dropped = geometry_->counts().nonFiniteVertices)
-        warnOnce(fmt::format(
-            "{} vertices are not finite or too far away: their triangles are dropped", dropped));
+        warnOnce(
+            fmt::format("{} vertices are not finite or too far away: their triangles are dropped",
+                        dropped),
+            "vertices that are not finite");
     if (counts.nearPoints)
-        warnOnce(fmt::format(
-            "casters lie nearer to a light than its near plane: {} points keep depth 1; set "
-            "near= on --light",
-            counts.nearPoints));
+        warnOnce(
+            fmt::format(
+                "casters lie nearer to a light than its near plane: {} points keep depth 1; set "
+                "near= on --light",
+                counts.nearPoints),
+            "points before the near plane");
     return json.dump();
 }
 
 std::string Pipeline::statsJson() const {
     nlohmann::json settings;
-    for (const auto& [key, value] : header()) settings[key] = value;
+    for (const auto& [key, value] : header_) settings[key] = value;
     const auto& programs = device_->programs();
     return nlohmann::json(
                {{"schema", 1},

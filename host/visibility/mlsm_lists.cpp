@@ -43,7 +43,7 @@ MlsmLists::MlsmLists(const runtime::Program& frame, const runtime::Program& mlsm
       collect_(mlsm, "mlsm_collect"),
       sort_(mlsm, "mlsm_sort"),
       nodeCount_(*device_, "list nodes", 1),
-      capacity_(firstCapacity(settings.resolution)) {}
+      capacity_(std::min(firstCapacity(settings.resolution), device_->faults().firstCapacity)) {}
 
 void MlsmLists::allocate(const shared::MlsmParams& params) {
     const auto values = static_cast<std::uint64_t>(MLSM_VALUES(params.channels));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/visibility/points.h"
 
+#include <algorithm>
+
 #include "runtime/error.h"
 
 namespace penumbra::visibility {
@@ -31,7 +33,8 @@ std::uint64_t Points::plannedBytes(Precision precision) {
 
 bool Points::grow(std::uint64_t count) {
     if (count <= capacity_ && capacity_ > 0) return false;
-    const std::uint64_t wanted = std::max(kFirstCapacity, (count + count / 4 + 15) / 16 * 16);
+    const auto first = std::min(kFirstCapacity, device_->faults().firstCapacity);
+    const std::uint64_t wanted = std::max(first, (count + count / 4 + 15) / 16 * 16);
     if (wanted > 1ULL << 30)
         throw Error(
             fmt::format("out of memory: {} points; use a smaller resolution or density", count),

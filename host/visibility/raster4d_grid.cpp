@@ -7,6 +7,8 @@
 
 namespace penumbra::visibility {
 
+constexpr std::uint64_t kFirstCapacity = 1 << 20;
+
 Raster4dGrid::Raster4dGrid(const runtime::Program& frame, const runtime::Program& raster4d,
                            const Raster4dSettings& settings)
     : device_(&frame.device()),
@@ -19,7 +21,8 @@ Raster4dGrid::Raster4dGrid(const runtime::Program& frame, const runtime::Program
       masks_(raster4d, "raster4d_grid_masks"),
       finish_(raster4d, "raster4d_grid_finish"),
       extentBuffer_(*device_, "extent of the grid", 4),
-      longestBuffer_(*device_, "longest list", 1) {
+      longestBuffer_(*device_, "longest list", 1),
+      capacity_(std::min(kFirstCapacity, device_->faults().firstCapacity)) {
     for (auto* lists : {&receiverLists_, &triangleLists_})
         lists->total = Buffer<U32>(*device_, "entries of the grid", 1);
     longestBuffer_.fill(0);

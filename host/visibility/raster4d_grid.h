@@ -49,7 +49,7 @@ class Raster4dGrid {
         finish_;
     Buffer<U32> extentBuffer_, receiverMasks_, longestBuffer_;
     Lists receiverLists_, triangleLists_;
-    std::uint64_t capacity_ = 1 << 20;
+    std::uint64_t capacity_;
     int bands_ = 1;
 };
 

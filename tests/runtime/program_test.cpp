@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "kernels/shared/mesh.h"
 #include "runtime/error.h"
@@ -68,8 +69,15 @@ class ProgramCacheTest : public testing::Test {
         else
             setenv("XDG_CACHE_HOME", saved_.c_str(), 1);
     }
-    /// Makes the program anew and runs its self-test; returns what was built and loaded.
+    /// Makes the program anew and runs its self-test; returns what was built and loaded, and keeps
+    /// what the device warned of.
     runtime::ProgramStats use(bool cache = true) {
+        std::vector<std::string> warnings;
+        const auto stats = use(cache, warnings);
+        warnings_ = warnings;
+        return stats;
+    }
+    static runtime::ProgramStats use(bool cache, std::vector<std::string>& warnings) {
         auto info = device().info();
         info.cachesBuilds = false;
         runtime::DeviceOptions options;
@@ -78,6 +86,7 @@ class ProgramCacheTest : public testing::Test {
         const runtime::Program frame(own, "frame");
         runtime::selfTest(frame);
         EXPECT_FALSE(frame.signatures().empty());
+        warnings = own.takeWarnings();
         return own.programs();
     }
     std::filesystem::path entry() const {
@@ -85,7 +94,13 @@ class ProgramCacheTest : public testing::Test {
             return file.path();
         return {};
     }
+    /// The last use warned once, of this.
+    void expectWarning(const std::string& part) const {
+        ASSERT_EQ(warnings_.size(), 1U);
+        EXPECT_NE(warnings_[0].find(part), std::string::npos) << warnings_[0];
+    }
     std::string folder_, saved_;
+    std::vector<std::string> warnings_;
 };
 
 TEST_F(ProgramCacheTest, TheSecondStartLoadsWhatTheFirstBuilt) {
@@ -102,7 +117,36 @@ TEST_F(ProgramCacheTest, ADamagedEntryIsBuiltAnew) {
     file.put('!');
     file.close();
     EXPECT_EQ(use().built, 1);
+    expectWarning(entry().string() + ": the cached program is compiled anew: it is damaged");
     EXPECT_EQ(use().loaded, 1);  // and was replaced
+    EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(ProgramCacheTest, AnEntryOfAnotherVersionIsBuiltAnew) {
+    use();
+    std::fstream file(entry(), std::ios::in | std::ios::out | std::ios::binary);
+    file << "penumbra-program-0";
+    file.close();
+    EXPECT_EQ(use().built, 1);
+    expectWarning("it is of another version");
+    EXPECT_EQ(use().loaded, 1);
+}
+
+TEST_F(ProgramCacheTest, AFolderThatCannotBeWrittenIsSaid) {
+    std::ofstream(folder_ + "/penumbra") << "a file where the folder should be";
+    EXPECT_EQ(use().built, 1);
+    expectWarning("the cache " + folder_ + "/penumbra cannot be written");
+}
+
+TEST_F(ProgramCacheTest, SeveralMayShareAnEmptyFolder) {
+    std::vector<std::vector<std::string>> warnings(4);
+    std::vector<std::thread> threads;
+    for (auto& of : warnings) threads.emplace_back([&of] { use(true, of); });
+    for (auto& thread : threads) thread.join();
+    for (const auto& of : warnings) EXPECT_EQ(of, std::vector<std::string>{});
+    EXPECT_EQ(use().loaded, 1);
+    const std::filesystem::directory_iterator files(folder_ + "/penumbra");
+    EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }
 
 TEST_F(ProgramCacheTest, ATruncatedEntryIsBuiltAnew) {
