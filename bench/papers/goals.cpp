@@ -13,7 +13,7 @@
 #include "bench/papers/embree_shadows.h"
 #endif
 #ifdef PENUMBRA_EGL
-#include "bench/papers/egl_rival.h"
+#include "bench/papers/opengl_rival.h"
 #endif
 
 namespace penumbra::papers {

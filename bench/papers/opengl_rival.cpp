@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/papers/egl_rival.h"
+#include "bench/papers/opengl_rival.h"
 
 #include <algorithm>
 #include <chrono>
