@@ -15,11 +15,11 @@ inline uint opacityKey(float alpha, uint primitive) {
 /// a stack of surfaces blocks would be arcs of one circle, and what it lets through not the product, however many
 /// the samples.
 inline int opacityBlocks(uint key, int view, int views, int stride) {
-    const uint offset = key & 0x7ffffu, step = offset * 0x9e3779b1u >> 8 | 1u;
+    const uint offset = key & 0x7ffffu, step = offset * 0x9e3779b1u >> 8 | 1u, shift = offset * 0x85ebca77u >> 13;
     uint rank = ((uint)view * (uint)stride + offset) % (uint)views;
     // A permutation of the power of two that holds all ranks, walked until it comes back among them: one of the ranks
     const uint mask = 0xffffffffu >> clz(((uint)views - 1u) | 1u);
-    do rank = (rank + offset) * step & mask;
+    do rank = (rank + shift) * step & mask;
     while (rank >= (uint)views);
     return (key >> 19) * 2u * (uint)views > (2u * rank + 1u) * 4096u;
 }
