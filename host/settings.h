@@ -59,6 +59,7 @@ class DescribeRows {
     void oneOf(const char* name, int& value, const std::vector<int>& allowed, const char* unit,
                const char* meaning, bool device = true) {
         std::vector<std::string> choices;
+        choices.reserve(allowed.size());
         for (const int number : allowed) choices.push_back(std::to_string(number));
         rows.push_back({name, "enum", std::to_string(value), "", "", unit, meaning,
                         std::move(choices), device});
