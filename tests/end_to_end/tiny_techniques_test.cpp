@@ -17,12 +17,7 @@ struct Rival {
 };
 
 RenderOptions optionsOf(const Rival& rival) {
-    RenderOptions options;
-    options.width = 20;
-    options.height = 12;
-    options.lightSamples = "3";
-    options.eye = {{2.5, 2.5, 3.5}};
-    options.target = {{0, 0.5, 0}};
+    RenderOptions options = tinyOptions();
     options.technique = rival.technique;
     if (!rival.pattern.empty()) options.lightPattern = rival.pattern;
     options.settings = rival.settings;

@@ -15,19 +15,14 @@
 namespace penumbra::tests {
 namespace {
 
-RenderOptions tinyOptions() {
-    RenderOptions options;
-    options.width = 20;
-    options.height = 12;
-    options.lightSamples = "3";
-    options.eye = {{2.5, 2.5, 3.5}};
-    options.target = {{0, 0.5, 0}};
+RenderOptions tinyVwssOptions() {
+    RenderOptions options = tinyOptions();
     options.settings["vwss.resolution"] = "64";
     return options;
 }
 
 Frame renderTiny(const std::map<std::string, std::string>& settings) {
-    auto options = tinyOptions();
+    auto options = tinyVwssOptions();
     for (const auto& [key, value] : settings) options.settings[key] = value;
     options.aovs = {"visibility", "depth-maps"};
     return Pipeline(options, tinyScene()).render(0);
@@ -76,7 +71,7 @@ TEST(TinyVwssVariantsTest, AllVariantsMakeTheSameMapsAndVisibility) {
 }
 
 TEST(TinyRaytraceTest, AgreesWithTheDepthMapsOnMostPixelsAndCarriesColour) {
-    auto options = tinyOptions();
+    auto options = tinyVwssOptions();
     options.aovs = {"visibility"};
     const auto maps = Pipeline(options, tinyScene()).render(0).channels;
     options.technique = "raytrace";
@@ -90,7 +85,7 @@ TEST(TinyRaytraceTest, AgreesWithTheDepthMapsOnMostPixelsAndCarriesColour) {
 }
 
 TEST(TinyRaytraceTest, ReceiversOutsideOfNarrowViewsAreTraced) {
-    auto options = tinyOptions();
+    auto options = tinyVwssOptions();
     options.aovs = {"visibility"};
     auto scene = tinyScene();
     scene.lights[0].fovRad = 0.1;  // holds next to nothing
@@ -107,7 +102,7 @@ TEST(TinyRaytraceTest, ReceiversOutsideOfNarrowViewsAreTraced) {
 }
 
 TEST(TinyTemporalTest, AveragesAStillSceneToItself) {
-    auto options = tinyOptions();
+    auto options = tinyVwssOptions();
     options.aovs = {"visibility"};
     const Frame once = Pipeline(options, tinyScene()).render(0);
     options.temporal = 3;

@@ -44,4 +44,14 @@ scene::Scene tinyScene() {
     return scene;
 }
 
+RenderOptions tinyOptions() {
+    RenderOptions options;
+    options.width = 20;
+    options.height = 12;
+    options.lightSamples = "3";
+    options.eye = {{2.5, 2.5, 3.5}};
+    options.target = {{0, 0.5, 0}};
+    return options;
+}
+
 }  // namespace penumbra::tests
