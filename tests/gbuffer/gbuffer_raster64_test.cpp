@@ -35,6 +35,10 @@ TEST_F(GBufferRaster64, TrianglesOfEqualDepthGoToTheLowestIndex) {
     expectTiesGoToTheLowestIndex(kPath);
 }
 
+TEST_F(GBufferRaster64, WordsAreThoseOfTheTwin) {
+    expectWordsOfTheTwin();
+}
+
 TEST_F(GBufferRaster64, BackFacesOfSingleSidedMaterialsAreDroppedAlsoWhereNodesMirror) {
     expectBackFacesAreDropped(kPath);
 }

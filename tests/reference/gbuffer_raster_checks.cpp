@@ -8,6 +8,7 @@
 #include <random>
 
 #include "host/gbuffer/raster.h"
+#include "tests/reference/gbuffer_raster64_ref.h"
 #include "tests/reference/gbuffer_raster_ref.h"
 #include "tests/reference/gbuffer_run.h"
 #include "tests/support/fixtures.h"
@@ -286,6 +287,26 @@ void expectTiesGoToTheLowestIndex(RasterPath path) {
             }
         EXPECT_EQ(wrong, 0) << width << " x " << height;
         EXPECT_GT(ties, width * height / 2);
+    }
+}
+
+void expectWordsOfTheTwin() {
+    for (const auto& [width, height] : kSizes) {
+        const auto camera = pixelCamera(width, height);
+        const auto scene = exactTriangles(5, 90, 3, {width, height}).scene();
+        const RasterReference twin(scene, camera, width, height);
+        geometry::Geometry geometry(program("frame"), scene, glm::dvec3(0));
+        const auto& mesh = geometry.run(scene::poseAt(scene, {}, 0));
+        const auto [depths, ids] = run64(viewOf(camera, width, height), mesh);
+        for (int i = 0; i < width * height; ++i) {
+            const auto word = nearestWord(twin.fragments(i % width, i / width));
+            const auto at = static_cast<std::size_t>(i);
+            ASSERT_EQ(ids[at], static_cast<std::uint32_t>(word)) << i;
+            // The last bit of a depth is the projection's, not the word's
+            ASSERT_NEAR(std::bit_cast<float>(depths[at]),
+                        std::bit_cast<float>(static_cast<std::uint32_t>(word >> 32)), 1e-6)
+                << i;
+        }
     }
 }
 

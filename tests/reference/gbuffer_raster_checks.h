@@ -17,6 +17,8 @@ void expectAlphaDecidesFragments(RasterPath path);
 void expectThresholdsAreKeptExactly(RasterPath path);
 /// Without rounding: coordinates are multiples of 1/64 pixel, depths exact in float.
 void expectTiesGoToTheLowestIndex(RasterPath path);
+/// The words of 64 bits, as later passes read them, on the same scenes.
+void expectWordsOfTheTwin();
 /// Single-sided materials, also in nodes of negative determinant.
 void expectBackFacesAreDropped(RasterPath path);
 
