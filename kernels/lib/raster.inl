@@ -3,7 +3,8 @@
 //   RASTER_KERNEL       name of the first kernel; the second is RASTER_KERNEL_LARGE
 //   RASTER_PARAMETERS   further kernel parameters, with a leading comma; may be empty
 //   RASTER_BEGIN        statements at a work-item's start (local variables of the action)
-//   RASTER_TRIANGLE     statements before a triangle's fragments
+//   RASTER_TRIANGLE     statements before a triangle's fragments; only with RASTER_VERTICES, since lanes hold many
+//                       triangles at a time
 //   RASTER_FRAGMENT     statements per fragment; they see x, y, depth, triangle, draw, v (vertices
 //                       before clipping; only of masked or blended draws) and the kernel's parameters
 //   RASTER_END          statements at a work-item's end

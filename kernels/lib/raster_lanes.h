@@ -14,7 +14,7 @@
 #endif
 #endif
 
-/// Corners in 1/256 texel, oriented clockwise on the screen, with depths.
+/// Corners in 1/256 pixel with depths; clockwise on the screen from laneOrient on.
 typedef struct {
     VI x[3], y[3];
     VF depth[3];
@@ -48,7 +48,7 @@ inline void laneOrient(LaneTriangles* t) {
     t->depth[2] = V_SELECT(t->depth[2], depth, turn);
 }
 
-/// Edge i's value at texel (minX, minY); its steps per column and row are -dy and dx.
+/// Edge i's value at pixel (minX, minY); its steps per column and row are -dy and dx.
 inline VI laneEdge(const LaneTriangles* t, int i, int conservative, VI* stepX, VI* stepY) {
     const int j = i == 2 ? 0 : i + 1, midpoint = 1 << (RASTER_SUBPIXEL_BITS - 1);
     const VI dx = t->x[j] - t->x[i], dy = t->y[j] - t->y[i];
@@ -125,6 +125,7 @@ inline void laneStep(LaneWalk* walk) {
     walk->y -= turn;
     walk->active &= V_MASK(walk->y <= walk->maxY);
 }
+
 #if LANES > 1
 inline VF laneDot(float4 row, VF x, VF y, VF z) {
     return fma((VF)row.x, x, fma((VF)row.y, y, fma((VF)row.z, z, (VF)row.w)));
